@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace supple::gpu {
 
@@ -159,6 +160,14 @@ Result<BufferSet> BufferSet::create(const Device& device, std::span<const Buffer
         return vulkanError(result, std::string("binding memory of ") + name);
     }
     return set;
+}
+
+BufferSet BufferSet::release() {
+    BufferSet released = std::move(*this);
+    allocations_.clear();
+    buffers_.clear();
+    buffers_.resize(released.buffers_.size());
+    return released;
 }
 
 MemoryUse BufferSet::use() const {

@@ -64,6 +64,9 @@ public:
     BufferSet(BufferSet&&) noexcept = default;
     BufferSet& operator=(BufferSet&&) noexcept = default;
 
+    /// All that it has. Its buffers are null and have no bytes from then on.
+    [[nodiscard]] BufferSet release();
+
     [[nodiscard]] VkBuffer buffer(size_t index) const { return buffers_[index].handle.get(); }
     [[nodiscard]] VkDeviceSize size(size_t index) const { return buffers_[index].size; }
     /// What is allocated, alignment included: each byte counts for the buffer that it, or the gap before it, is for.

@@ -224,6 +224,7 @@ Status Context::takeFrame(uint64_t frame, uint64_t completedFrame) {
     noteHashes(completedFrame);
     uploads_.beginFrame(frame, completedFrame);
     retire(completedFrame);
+    fitMemory();
     planStreams();
     return success();
 }
@@ -321,6 +322,10 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
                          "it has another asset"};
         }
         shared.instances = leader->sharedInstances();
+        shared.leader = leader.get();
+        if (const Status fits = fitMemory(*leader); !fits) { // it is followed now
+            return fits.error();
+        }
         whole.capacity = shared.instances->capacity();
         whole.poseSource = shared.instances->source();
     }
@@ -413,6 +418,7 @@ Status Context::remake(const Remaking& remaking, uint64_t id, Group& group, std:
         const auto leader =
             std::find_if(remade.begin(), remade.end(), [&](const Remade& other) { return other.id == group.leader(); });
         shared.instances = leader->group->sharedInstances();
+        shared.leader = leader->group.get();
     }
     if (!asyncCompute_ || group.askedFrame() != frame_) { // else the draws may not have taken the indices over yet
         shared.before = &group;

@@ -170,6 +170,13 @@ private:
     /// Behind the frame that ends now: warns of groups that seem to be drawn and were never recorded.
     void warnOfUnrecorded();
     void retire(uint64_t completedFrame);
+    // runtime/group_memory.cpp
+    void fitMemory(); ///< the open frame has begun
+    [[nodiscard]] Status fitMemory(Group& group);
+    /// Its leader is destroyed: it can only be destroyed too.
+    [[nodiscard]] bool isOrphan(const Group& group) const {
+        return group.follows() && groups.at(group.leader()) == nullptr;
+    }
     [[nodiscard]] Status prepareBounds(); ///< sees to it that the pass can be recorded
     template <class F>
     void forViews(F&& visit); ///< those too that only groups hold

@@ -1,6 +1,5 @@
 // One frame: the table of passes (kPasses), and what walks it.
-#include "gpu/task_rewriter.h"
-#include "runtime/context.h"
+#include "runtime/frame.h"
 
 #include <algorithm>
 #include <cstring>
@@ -32,53 +31,6 @@ constexpr VkAccessFlags2 legacyAccess(VkAccessFlags2 access) {
 }
 static_assert(legacyAccess(kFirst.access) ==
               (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT));
-
-/// What the passes of one suppleRecord work with.
-struct Frame {
-    const gpu::Device& device;
-    VkCommandBuffer commands;
-    gpu::Dispatches& dispatches; ///< into it, of surfaces
-    gpu::TaskDispatches* tasks;  ///< these, if groups share them; else null
-    uint64_t number = 0;
-    uint32_t framesInFlight = 2;
-    double time = 0.0;       ///< the host's, in seconds
-    Group* groups = nullptr; ///< linked (Group::Link)
-    Context& context;
-
-    template <class F>
-    void forEach(F&& visit) const {
-        for (Group* group = groups; group != nullptr; group = group->link.next) {
-            visit(*group);
-        }
-    }
-    template <class F>
-    [[nodiscard]] bool any(F&& predicate) const {
-        for (Group* group = groups; group != nullptr; group = group->link.next) {
-            if (predicate(*group)) {
-                return true;
-            }
-        }
-        return false;
-    }
-    void computeBarrier() const { dispatches.computeBarrier(); }
-    void numberGroups() const {
-        uint32_t next = 0;
-        forEach([&](Group& group) { group.link.number = next++; });
-    }
-    /// Tells each view what its groups need (View::roomInFrame).
-    void findRoom() const {
-        forEach([](Group& group) {
-            if (group.view() != nullptr) {
-                group.link.inView = group.view()->addNeeds(group.leastVerticesOfAll(), group.poolUnitsOfAll());
-            }
-        });
-        forEach([](Group& leader) {
-            if (leader.link.leadsView) {
-                leader.view()->findRoom();
-            }
-        });
-    }
-};
 
 /// Linked groups in two lists.
 struct Separated {
@@ -134,7 +86,7 @@ PassCost recordUpload(const Frame& frame, Group& group) {
     if (group.view() != nullptr && group.view()->lastRecordedFrame() != frame.number) {
         cost.bytes += group.view()->recordUpload(frame.commands, frame.number);
     }
-    cost += group.recordUpload(frame.commands, {frame.number, frame.time, frame.context.origin()});
+    cost += group.recordUpload(frame.commands, {frame.number, frame.time, frame.context.origin(), leader.get()});
     return cost;
 }
 
@@ -296,34 +248,10 @@ bool constructs(Group& group) {
     return group.surfaces().any([](const Tessellation& surface) { return surface.has(stage); });
 }
 
-/// What stands behind a pass: who may read what it wrote.
-enum class Behind { nothing, compute, uploads, bounds, sizes, arguments, places, readback, directions, scratch };
-
-/// What a pass records: for every group, or for every surface of it. Nothing: it stands for the table of cage stages
-/// (runtime/stages/cage_stages.h).
-struct Work {
-    constexpr Work() = default;
-    constexpr Work(PassCost (*record)(const Frame&, Group&)) : ofGroup(record) {}                           // NOLINT
-    constexpr Work(PassCost (*record)(const Frame&, Tessellation&, surface::Round&)) : ofSurface(record) {} // NOLINT
-
-    PassCost (*ofGroup)(const Frame&, Group&) = nullptr;
-    PassCost (*ofSurface)(const Frame&, Tessellation&, surface::Round&) = nullptr;
-    [[nodiscard]] constexpr bool isCageStages() const { return ofGroup == nullptr && ofSurface == nullptr; }
-};
-
-struct Row {
-    SupplePass pass;
-    bool (*wants)(Group&);
-    Work work;
-    Behind behind = Behind::compute;
-    bool timed = true;       ///< false: part of the pass before, without label and timing
-    bool byCommands = false; ///< it records commands of its own, and nothing that groups share
-};
-
 /// The first of a frame: it finds out which groups the others are for.
-constexpr Row kUploads = {SUPPLE_PASS_UPLOAD, always, recordUpload, Behind::nothing};
+constexpr PassRow kUploads = {SUPPLE_PASS_UPLOAD, always, recordUpload, Behind::nothing};
 
-constexpr Row kPasses[] = {
+constexpr PassRow kPasses[] = {
     {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::attributesDue>, recordAttributes, Behind::nothing},
     {SUPPLE_PASS_POSE, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
@@ -364,6 +292,26 @@ constexpr Row kPasses[] = {
 std::string nameOf(size_t index, const Group* group) {
     const std::string number = "group " + std::to_string(index);
     return group != nullptr ? number + " (" + group->asset().character.name + ")" : number;
+}
+
+} // namespace
+
+std::span<const PassRow> passRows() {
+    return kPasses;
+}
+
+bool isWanted(const Frame& frame, const PassRow& row) {
+    return row.wants == always || frame.any(row.wants);
+}
+
+PosePlaces posePlaces() {
+    constexpr auto isPose = [](const PassRow& row) { return row.pass == SUPPLE_PASS_POSE; };
+    constexpr auto first =
+        static_cast<uint32_t>(std::find_if(std::begin(kPasses), std::end(kPasses), isPose) - kPasses);
+    constexpr auto count = static_cast<uint32_t>(std::count_if(std::begin(kPasses), std::end(kPasses), isPose));
+    static_assert(std::all_of(kPasses + first, kPasses + first + count, isPose));
+    static_assert(std::none_of(kPasses, kPasses + first, [](const PassRow& row) { return row.work.isCageStages(); }));
+    return {first, first + count - 1};
 }
 
 void recordBarrier(const Frame& frame, Behind behind) {
@@ -417,6 +365,8 @@ void recordBarrier(const Frame& frame, Behind behind) {
     }
 }
 
+namespace {
+
 /// Times what a pass records of a group: then groups share no dispatch.
 struct Timed {
     SupplePass pass;
@@ -439,7 +389,7 @@ struct Timed {
 
 /// Surfaces share the barriers between rounds. If they are timed, they come one after the other, so that each is told
 /// what it takes itself.
-void recordEachSurface(const Frame& frame, const Row& row, const Timed& timed) {
+void recordEachSurface(const Frame& frame, const PassRow& row, const Timed& timed) {
     const auto forEachSurface = [&](auto&& visit) {
         frame.forEach([&](Group& group) {
             for (uint32_t surface = 0; surface < group.surfaces().size(); ++surface) {
@@ -469,8 +419,9 @@ void recordEachSurface(const Frame& frame, const Row& row, const Timed& timed) {
     });
 }
 
-/// What a row records between its label and its barrier.
-void recordRow(const Frame& frame, const Row& row, Timings::Recording& timing) {
+} // namespace
+
+void recordRow(const Frame& frame, const PassRow& row, Timings::Recording& timing) {
     const Timed timed{row.pass, timing, frame.dispatches};
     if (row.work.ofSurface != nullptr) {
         recordEachSurface(frame, row, timed);
@@ -481,7 +432,7 @@ void recordRow(const Frame& frame, const Row& row, Timings::Recording& timing) {
     frame.dispatches.flush();
 }
 
-void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) {
+void recordPass(const Frame& frame, const PassRow& row, Timings::Recording& timing) {
     if (row.timed) {
         frame.device.beginLabel(frame.commands, passName(row.pass));
     }
@@ -492,7 +443,6 @@ void recordPass(const Frame& frame, const Row& row, Timings::Recording& timing) 
     recordBarrier(frame, row.behind);
 }
 
-/// The same of a row of the table of cage stages.
 void recordStageRow(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
     const Timed timed{row.pass, timing, frame.dispatches};
     frame.forEach([&](Group& group) {
@@ -509,6 +459,8 @@ void recordStageRow(const Frame& frame, size_t stage, const CageStageRow& row, T
     });
     frame.dispatches.flush();
 }
+
+namespace {
 
 void recordCageStage(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing) {
     frame.device.beginLabel(frame.commands, passName(row.pass));
@@ -535,25 +487,6 @@ void recordHashes(const Frame& frame, StageHashes& hashes, bool withSurfaces) {
     recording.end();
 }
 
-/// Calls ofRow(place, row) for each row of kPasses, and ofStage(place, stage, row) for each of the cage stages among
-/// them. A place is the number in this order (gpu/kept_tasks.h).
-template <class OfRow, class OfStage>
-void forEachRow(std::span<const CageStageRow> stages, OfRow&& ofRow, OfStage&& ofStage) {
-    uint32_t place = 0;
-    for (const Row& row : kPasses) {
-        if (!row.work.isCageStages()) {
-            ofRow(place++, row);
-            continue;
-        }
-        for (size_t stage = 0; stage < stages.size(); ++stage) {
-            ofStage(place++, stage, stages[stage]);
-        }
-    }
-}
-bool isWanted(const Frame& frame, const Row& row) {
-    return row.wants == always || frame.any(row.wants);
-}
-
 void recordPasses(const Frame& frame, std::span<const CageStageRow> stages, Timings::Recording& timing) {
     const auto within = [&](uint32_t place, auto&& record) {
         if (frame.tasks != nullptr) {
@@ -566,7 +499,7 @@ void recordPasses(const Frame& frame, std::span<const CageStageRow> stages, Timi
     };
     forEachRow(
         stages,
-        [&](uint32_t place, const Row& row) {
+        [&](uint32_t place, const PassRow& row) {
             if (isWanted(frame, row)) {
                 within(place, [&] { recordPass(frame, row, timing); });
             }
@@ -574,139 +507,6 @@ void recordPasses(const Frame& frame, std::span<const CageStageRow> stages, Timi
         [&](uint32_t place, size_t stage, const CageStageRow& row) {
             if (frame.any([&](Group& group) { return group.stages().has(stage); })) {
                 within(place, [&] { recordCageStage(frame, stage, row, timing); });
-            }
-        });
-}
-
-// Frames whose tasks are kept from an earlier one (gpu/kept_tasks.h).
-
-constexpr bool isPose(const Row& row) {
-    return row.pass == SUPPLE_PASS_POSE;
-}
-/// The places of poses: they follow each other, before the cage stages.
-constexpr uint32_t kFirstPosePlace =
-    static_cast<uint32_t>(std::find_if(std::begin(kPasses), std::end(kPasses), isPose) - kPasses);
-constexpr uint32_t kLastPosePlace =
-    kFirstPosePlace + static_cast<uint32_t>(std::count_if(std::begin(kPasses), std::end(kPasses), isPose)) - 1;
-static_assert(std::all_of(kPasses + kFirstPosePlace, kPasses + kLastPosePlace + 1, isPose));
-
-/// The group's tasks of the places from `first` to `last`, over those that are kept. False: there are others.
-bool rewriteTasks(const Frame& frame, Group& group, gpu::TaskRewriter rewriter, uint32_t first, uint32_t last) {
-    Group* const next = std::exchange(group.link.next, nullptr);
-    const Frame own{.device = frame.device,
-                    .commands = frame.commands,
-                    .dispatches = rewriter,
-                    .tasks = nullptr,
-                    .number = frame.number,
-                    .framesInFlight = frame.framesInFlight,
-                    .time = frame.time,
-                    .groups = &group,
-                    .context = frame.context};
-    Timings::Recording untimed;
-    forEachRow(
-        frame.context.stageRows(),
-        [&](uint32_t place, const Row& row) {
-            if (place >= first && place <= last && !row.byCommands && isWanted(own, row)) {
-                rewriter.enter(place);
-                recordRow(own, row, untimed);
-            }
-        },
-        [&](uint32_t place, size_t stage, const CageStageRow& row) {
-            if (place >= first && place <= last && group.stages().has(stage)) {
-                rewriter.enter(place);
-                recordStageRow(own, stage, row, untimed);
-            }
-        });
-    group.link.next = next;
-    return rewriter.end(last);
-}
-
-/// Brings what is kept of a group up to date. False: it cannot be.
-bool refreshTasks(const Frame& frame, Group& group, gpu::KeptTasks::Owner& kept) {
-    const gpu::TaskOwner now = group.taskOwner();
-    const gpu::TaskOwner before = std::exchange(kept.who, now);
-    if (now.recordsOnce) {
-        return false; // if it were recorded twice, the second time would find that it is done
-    }
-    if (!now.isLike(before)) {
-        constexpr uint32_t kLast = gpu::KeptTasks::kPlaces - 1;
-        return rewriteTasks(frame, group, {*frame.tasks, kept, 0}, 0, kLast);
-    }
-    const Playback* const playback = now.poses != 0 ? group.poses().playback() : nullptr;
-    if (playback == nullptr) {
-        return true;
-    }
-    if (now.poses != before.poses || playback->listsPoses()) {
-        return rewriteTasks(frame, group, {*frame.tasks, kept, kFirstPosePlace}, kFirstPosePlace, kLastPosePlace);
-    }
-    const skinning::SplitTime time = playback->splitTime();
-    static_assert(offsetof(shared::PosePush, timeHigh) == 0 && offsetof(shared::PosePush, timeLow) == sizeof(float) &&
-                  sizeof(time) == 2 * sizeof(float));
-    frame.tasks->rewrite(kept, kFirstPosePlace, kLastPosePlace, 0, std::as_bytes(std::span(&time, 1)));
-    return true;
-}
-
-/// True: the frame goes on from the tasks of an earlier one, which are up to date.
-bool resumeTasks(const Frame& frame) {
-    gpu::KeptTasks* const kept = frame.tasks->kept();
-    if (kept == nullptr) {
-        return false;
-    }
-    const std::span<gpu::KeptTasks::Owner> owners = kept->owners();
-    size_t count = 0;
-    bool same = true;
-    frame.forEach([&](const Group& group) {
-        same = same && count < owners.size() && owners[count].who.id == group.number();
-        ++count;
-    });
-    same = same && count == owners.size();
-    frame.forEach([&](Group& group) { same = same && refreshTasks(frame, group, owners[group.link.number]); });
-    return same && frame.tasks->resume();
-}
-
-/// Records the tasks of all groups anew. `keeps`: for later frames.
-void beginTasks(const Frame& frame, bool keeps) {
-    frame.tasks->begin(keeps && !frame.any([](const Group& group) { return !group.keepsTasks(); }));
-    frame.forEach([&](const Group& group) { frame.tasks->addOwner(group.taskOwner()); });
-}
-
-/// Whether the barrier is among what is kept.
-constexpr bool isKept(Behind behind) {
-    return behind != Behind::uploads && behind != Behind::bounds && behind != Behind::arguments &&
-           behind != Behind::places && behind != Behind::readback;
-}
-
-void recordKeptPasses(const Frame& frame, gpu::KeptTasks& kept) {
-    Timings::Recording untimed;
-    const auto recordLabelled = [&](bool labelled, SupplePass pass, uint32_t place) {
-        if (labelled) {
-            frame.device.beginLabel(frame.commands, passName(pass));
-        }
-        frame.tasks->recordKept(place);
-        if (labelled) {
-            frame.device.endLabel(frame.commands);
-        }
-    };
-    forEachRow(
-        frame.context.stageRows(),
-        [&](uint32_t place, const Row& row) {
-            if (row.byCommands) {
-                if (isWanted(frame, row)) {
-                    recordPass(frame, row, untimed);
-                }
-                return;
-            }
-            if (!kept.uses(place)) {
-                return;
-            }
-            recordLabelled(row.timed, row.pass, place);
-            if (!isKept(row.behind)) {
-                recordBarrier(frame, row.behind);
-            }
-        },
-        [&](uint32_t place, size_t, const CageStageRow& row) {
-            if (kept.uses(place)) {
-                recordLabelled(true, row.pass, place);
             }
         });
 }
@@ -845,8 +645,10 @@ Status Context::recordWarmUp(VkCommandBuffer commandBuffer, std::span<const Supp
     gpu::memoryBarrier(*device_, commandBuffer, kAll, kUploaded);
     for (const SuppleGroup& handle : wanted) {
         Group& group = *groups.find(handle.id);
-        group.noteRecorded(frame_);
-        group.recordWarmUp(commandBuffer);
+        if (!isOrphan(group)) {
+            group.noteRecorded(frame_);
+            group.recordWarmUp(commandBuffer);
+        }
     }
     gpu::memoryBarrier(*device_, commandBuffer, kFirst, kAll);
     return success();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -52,6 +53,7 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->number_ = shared.number;
     group->recipe_ = GroupRecipe(desc);
     group->desc_ = desc;
+    group->surfaceBuffers_.setKeepFrames(desc.keepUnseenFrames);
     TessellationDesc tessellation;
     tessellation.device = shared.device;
     tessellation.programs = shared.surface;
@@ -62,8 +64,12 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     tessellation.group = desc;
     tessellation.framesInFlight = shared.framesInFlight;
     tessellation.handsOver = shared.handsOver;
+    if (shared.leader != nullptr && shared.leader->culling() != nullptr && shared.view != nullptr) {
+        group->place_ = SharerPlace(shared.leader->culling()->sharers());
+    }
     Result<Surfaces> surfaces =
-        Surfaces::create(tessellation, shared.before != nullptr ? &shared.before->surfaces_ : nullptr);
+        Surfaces::create(tessellation, shared.before != nullptr ? &shared.before->surfaces_ : nullptr,
+                         group->place_.number() ? &shared.leader->surfaces_ : nullptr);
     if (!surfaces) {
         return surfaces.error();
     }
@@ -189,7 +195,7 @@ Status Group::createRest(const GroupShared& shared) {
     listing_.plan(device, staging, shared.framesInFlight);
     stages_.plan(device, staging);
     for (const auto& surface : surfaces_) {
-        surface->plan(device, staging);
+        surface->plan(surfaceBuffers_.mayGo() ? surfaceBuffers_.plan() : device, staging);
     }
     if (view_ != nullptr) {
         planCulling(shared, device, staging);
@@ -201,6 +207,7 @@ Status Group::createRest(const GroupShared& shared) {
     planBounds(shared, device);
     status = device.create(*shared.device, gpu::MemoryKind::deviceLocal);
     status = status ? staging.create(*shared.device, gpu::MemoryKind::upload) : status;
+    status = status ? surfaceBuffers_.create(*shared.device) : status;
     status = status && boundsReadback_ != nullptr ? boundsReadback_->create() : status;
     status = status && !follows() ? instances_->createSets(listing_) : status;
     status = status ? stages_.createSets(instances_->cages(), listing_) : status;
@@ -245,7 +252,7 @@ HashedPart Group::partOf(const Hashed& hashed, uint32_t part) const {
 }
 
 Status Group::createHashes(const std::shared_ptr<const StageHashes>& hashes) {
-    if (hashes_ != nullptr) {
+    if (hashes_ != nullptr || !surfaceBuffers_.areThere()) {
         return success();
     }
     std::vector<Hashed> all;
@@ -325,6 +332,11 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
     desc.parts = &drawnParts_;
     desc.firstRate = surfaces_.ladder().first;
     desc.poolUnits = view_->poolUnits();
+    SharerPlace place = std::move(place_); // given back if there is nothing to share
+    if (sharesCoefficients()) {
+        desc.leader = shared.leader->culling();
+        desc.place = std::move(place);
+    }
     std::vector<Culling::Surface> culled;
     for (const auto& surface : surfaces_) {
         culled.push_back(surface->culledSurface());
@@ -332,7 +344,7 @@ void Group::planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu:
             culled.back().measure = {}; // only rates ask for the level of an instance
         }
     }
-    std::unique_ptr<Culling> culling = Culling::create(desc, culled);
+    std::unique_ptr<Culling> culling = Culling::create(std::move(desc), culled);
     culling->plan(device, staging);
     culling_ = culling.get();
     visibility_ = std::move(culling);
@@ -397,6 +409,8 @@ void Group::fill(SuppleGroupInfo& info) const {
     info.instances = visibility_->list().slots();
     info.windowSize = windows().size;
     info.windowCount = windows().count();
+    info.surfacesGivenBack = surfaceBuffers_.areThere() ? 0 : 1;
+    info.surfaceVersion = surfaceBuffers_.version();
 }
 
 gpu::TaskNeeds Group::countTasks() const {
@@ -414,6 +428,7 @@ gpu::TaskNeeds Group::countTasks() const {
 gpu::MemoryUse Group::memoryUse() const {
     gpu::MemoryUse use = buffers_.use();
     use += staging_.use();
+    use += surfaceBuffers_.use();
     use += stages_.memoryUse();
     use += points_.memoryUse();
     if (boundsReadback_ != nullptr) {
@@ -460,15 +475,32 @@ void Group::recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame) {
     }
 }
 
+void Group::followCoefficients(const Group& leader) {
+    if (passesFrame_ != leader.passesBefore_) {
+        listing_.forgetAll(); // others have been written since
+    }
+    // If the leader's passes are recorded already, they know nothing of what this group sees.
+    const bool constructs = leader.link.call != link.call;
+    bool changed = false;
+    for (const auto& surface : surfaces_) {
+        changed = (surface->sharesCoefficients() && surface->setConstructs(constructs)) || changed;
+    }
+    tasksVersion_ += changed ? 1 : 0;
+}
+
 PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& frame) {
     noDraws_.renew();
+    if (frame.leader != nullptr && sharesCoefficients()) {
+        followCoefficients(*frame.leader);
+    }
     if (culling_ != nullptr && culling_->instanceUnits() > 0) {
         if (passesFrame_ != view_->recordedBefore()) {
             listing_.forgetAll(); // others have written where its coefficients were
         }
         culling_->takePool(view_->pool());
     }
-    passesFrame_ = lastRecordedFrame_ = frame.number;
+    passesBefore_ = std::exchange(passesFrame_, frame.number);
+    lastRecordedFrame_ = frame.number;
     points_.noteAsked(frame.number);
     bool changed = listing_.changed(slots());
     PassCost cost =
@@ -486,12 +518,15 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
         cost.bytes += listing_.recordCopies(*device_, commandBuffer) + visibility_->recordUpload(commandBuffer);
     }
     cost += recordPoseList(commandBuffer, frame.number);
+    surfaceBuffers_.noteRecorded(windows().visible > 0);
     for (const auto& surface : surfaces_) {
         surface->setPastStep(step);
-        cost.bytes += surface->recordUpload(commandBuffer, frame.number, changed);
+        cost.bytes += surface->hasBuffers() ? surface->recordUpload(commandBuffer, frame.number, changed) : 0;
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
     changed = findList(frame.number) || changed;
+    const uint32_t sharers = culling_ != nullptr ? culling_->sharers()->end() : 0;
+    changed = std::exchange(sharers_, sharers) != sharers || changed;
     const bool pastMoves =
         step != pastStep_ &&
         (points_.havePasts() || surfaces_.any([](const Tessellation& surface) { return surface.writesMotion(); }));
@@ -565,7 +600,9 @@ PassCost Group::recordBounds(gpu::Dispatches& dispatches) const {
 }
 
 void Group::recordBoundsReadback(VkCommandBuffer commandBuffer, uint64_t frame) {
-    boundsReadback_->record(commandBuffer, frame, bounds().buffer, slots());
+    if (!listing_.leavesOutAll()) { // else it has found no box
+        boundsReadback_->record(commandBuffer, frame, bounds().buffer, slots());
+    }
 }
 
 bool Group::noteUnrecordedFrame() {

@@ -16,6 +16,7 @@
 #include "runtime/points/point_sets.h"
 #include "runtime/recording/stage_hashes.h"
 #include "runtime/stages/cage_stages.h"
+#include "runtime/surface_buffers.h"
 #include "runtime/surfaces.h"
 #include "runtime/transfers.h"
 #include "runtime/view.h"
@@ -23,6 +24,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -40,6 +42,7 @@ struct GroupShared {
     const OcclusionKernels* occlusion = nullptr; ///< for groups of views with occlusion
     std::shared_ptr<View> view;                  ///< of the description
     std::shared_ptr<InstanceSet> instances;      ///< of the group that this one follows; null: it has its own
+    const Group* leader = nullptr;               ///< that group
     uint32_t framesInFlight = 2;
     uint32_t firstGeneration = 1;              ///< of the instances
     uint64_t number = 0;                       ///< no other group of the context ever has it
@@ -100,7 +103,15 @@ public:
     [[nodiscard]] Culling* culling() { return culling_; }
     [[nodiscard]] const Culling* culling() const { return culling_; }
     /// Visible instances that the last recording has left out before they were posed.
-    [[nodiscard]] uint32_t unposed() const { return outOfSight_.count(); }
+    [[nodiscard]] uint32_t unposed() const;
+    /// Before a frame: gives back the memory of its surfaces, or takes it again if there is an instance to draw. True:
+    /// other buffers are there than before. `hashes`: of a recording, or null.
+    [[nodiscard]] Result<bool> fitMemory(uint64_t frame, uint64_t completedFrame,
+                                         const std::shared_ptr<const StageHashes>& hashes);
+    /// The host has not been told yet that there is no memory.
+    [[nodiscard]] bool lacksMemoryAnew() { return !std::exchange(lackTold_, true); }
+    /// What it has given back and takes again.
+    [[nodiscard]] VkDeviceSize givenBackBytes() const { return surfaceBuffers_.freedBytes(); }
 
     /// Groups of a view: whether the frame lists what is seen. Where nothing was listed and nothing is to list, lists,
     /// arguments and draws stand.
@@ -123,15 +134,16 @@ public:
     void noteStaticsThere() { staticsThere_ = true; }
     [[nodiscard]] bool staticsThere() const { return staticsThere_; }
     /// `number`: one that no group has had. Tasks that were recorded under the last one are not gone on from.
-    void notePointsChanged(uint64_t number) {
+    void noteBuffersChanged(uint64_t number) {
         number_ = number;
         taskNeeds_ = countTasks();
     }
     /// What a frame is for all groups that are recorded in it.
     struct FrameInfo {
         uint64_t number = 0;
-        double time = 0.0;      ///< the host's, in seconds
-        glm::dvec3 origin{0.0}; ///< where the coordinates of the device begin
+        double time = 0.0;             ///< the host's, in seconds
+        glm::dvec3 origin{0.0};        ///< where the coordinates of the device begin
+        const Group* leader = nullptr; ///< of a group that follows another one
     };
     /// The frame leaves the group out, though it is recorded: what it needs is not there yet. Its draws draw nothing,
     /// but for those of a view, which has them for all its groups.
@@ -196,6 +208,9 @@ private:
     [[nodiscard]] Status createListing(const GroupShared& shared);
     [[nodiscard]] Status createRest(const GroupShared& shared);
     void planCulling(const GroupShared& shared, gpu::BufferPlan& device, gpu::BufferPlan& staging);
+    [[nodiscard]] bool sharesCoefficients() const {
+        return surfaces_.any([](const Tessellation& surface) { return surface.sharesCoefficients(); });
+    }
     void planBounds(const GroupShared& shared, gpu::BufferPlan& device);
     /// Whether the view's pool has room for an instance.
     [[nodiscard]] Status checkPool() const;
@@ -205,6 +220,16 @@ private:
     [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
     /// True if others than before are out of sight.
     bool findUnseen();
+    /// What the frame has of the coefficients that both groups read.
+    void followCoefficients(const Group& leader);
+    // runtime/group_memory.cpp
+    /// Whether an instance would be drawn, if the next frame were recorded now.
+    [[nodiscard]] bool findsInstance();
+    void giveSurfaces(uint64_t frame);
+    void freeSurfaces();
+    /// They have new buffers.
+    [[nodiscard]] Status remakeSurfaces();
+    [[nodiscard]] Status takeSurfaces(uint64_t frame, const std::shared_ptr<const StageHashes>& hashes);
     /// Finds listsSeen(). True if it is another than before.
     bool findList(uint64_t frame);
     /// With update rates: chooses them by sizes on the screen, and lists what is posed.
@@ -227,7 +252,9 @@ private:
     glm::dvec3 origin_{0.0}; ///< of the last recording
     const gpu::Device* device_ = nullptr;
     bool handsOver_ = false;           ///< to another queue family
-    gpu::BufferSet buffers_, staging_; ///< of all but the instances
+    gpu::BufferSet buffers_, staging_; ///< of all but the instances, and but what surfaces may give back
+    SurfaceBuffers surfaceBuffers_;
+    SharerPlace place_; ///< during creation: among those who share the coefficients of the group that this one follows
     std::shared_ptr<InstanceSet> instances_;
     DrawnParts drawnParts_;
     InstanceListing listing_;
@@ -242,7 +269,8 @@ private:
     CageStages stages_;
     PointSets points_;
     Surfaces surfaces_;
-    uint64_t passesFrame_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
+    uint64_t passesFrame_ = 0, passesBefore_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
+    uint32_t sharers_ = 0;                   ///< of the last recording: Sharers::end()
     uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change
     gpu::TaskNeeds taskNeeds_;
     uint32_t patchesAtLevels_ = 0; ///< in a view
@@ -250,7 +278,7 @@ private:
     RecordedOnce noDraws_;
     RecordedOnce emptyList_; ///< the list pass of a frame in which nothing is to list
     bool listsSeen_ = false;
-    bool outputsAsked_ = false, staticsThere_ = false;
+    bool outputsAsked_ = false, staticsThere_ = false, lackTold_ = false;
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
 };
 

@@ -25,7 +25,7 @@ InstanceListing::Lists InstanceListing::next() {
 }
 
 bool InstanceListing::worksOn(const InstanceSlots& slots, uint32_t slot) const {
-    return slots.shows(slot) && (unseen_ == nullptr || !unseen_->holds(slot));
+    return !leavesOutAll_ && slots.shows(slot) && (unseen_ == nullptr || !unseen_->holds(slot));
 }
 
 void InstanceListing::list(const InstanceSlots& slots, std::span<uint32_t> byWindow) {
@@ -67,7 +67,7 @@ void InstanceListing::listDrawn(const InstanceSlots& slots, const Lists& lists) 
         const uint32_t first = windows_.firstDrawnSlot(w), last = std::min(first + windows_.drawSize, slots.end());
         uint32_t end = first;
         for (uint32_t s = first; s < last; ++s) {
-            if (slots.shows(s)) {
+            if (worksOn(slots, s)) {
                 lists.all[end++] = s;
             }
         }
@@ -105,7 +105,7 @@ uint32_t InstanceListing::listPart(const InstanceSlots& slots, uint32_t part, ui
     const uint32_t first = windows_.firstDrawnSlot(window), last = std::min(first + windows_.drawSize, slots.end());
     uint32_t count = 0;
     for (uint32_t s = first; s < last; ++s) {
-        if (slots.shows(s) && !slots.hiddenParts().hides(s, part)) {
+        if (worksOn(slots, s) && !slots.hiddenParts().hides(s, part)) {
             out[count++] = s;
         }
     }

@@ -53,6 +53,14 @@ public:
     void listForCulling(const InstanceSlots& slots, std::span<uint32_t> all) const;
     /// What the next lists leave out; null: nothing. It must outlive them.
     void leaveOut(const OutOfSight* unseen) { unseen_ = unseen; }
+    /// The next lists leave out all instances, or none of them.
+    void leaveOutAll(bool all) {
+        leavesOutAll_ = all;
+        settles_ = true;
+    }
+    [[nodiscard]] bool leavesOutAll() const { return leavesOutAll_; }
+    /// What the next lists leave out is other than before.
+    void noteUnseenChanged() { settles_ = true; }
     /// Whether the frame works on the instance in the slot.
     [[nodiscard]] bool worksOn(const InstanceSlots& slots, uint32_t slot) const;
     /// Every instance is new to the next list().
@@ -74,6 +82,7 @@ private:
     InstanceWindows windows_;
     const DrawnParts* parts_ = nullptr;
     const OutOfSight* unseen_ = nullptr;
+    bool leavesOutAll_ = false;
     std::vector<uint32_t> lives_; ///< by slot: InstanceSlots::life of what was evaluated last; 0: nothing
     uint64_t listedVersion_ = 0;
     bool settles_ = true; ///< the next list differs though nothing changes

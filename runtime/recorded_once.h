@@ -38,6 +38,11 @@ public:
             ranges_.push_back({buffer.buffer(), offset, size});
         }
     }
+    /// The buffers are gone. Those that are added from then on are zeroed.
+    void forget() {
+        ranges_.clear();
+        once_.renew();
+    }
     [[nodiscard]] bool staticsPending() const override { return !ranges_.empty() && once_.due(); }
     VkDeviceSize recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) override {
         if (staticsPending()) {

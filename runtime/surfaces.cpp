@@ -57,7 +57,7 @@ Result<std::vector<TessellationDesc>> describeAll(const TessellationDesc& group)
 
 } // namespace
 
-Result<Surfaces> Surfaces::create(const TessellationDesc& desc, const Surfaces* before) {
+Result<Surfaces> Surfaces::create(const TessellationDesc& desc, const Surfaces* before, const Surfaces* leader) {
     Result<std::vector<TessellationDesc>> descs = describeAll(desc);
     if (!descs) {
         return descs.error();
@@ -68,7 +68,11 @@ Result<Surfaces> Surfaces::create(const TessellationDesc& desc, const Surfaces* 
     for (TessellationDesc& own : *descs) {
         own.group.partSchemes = nullptr; // the caller's
         own.countsHidden = !counted;
-        own.before = before != nullptr && own.surface < before->size() ? &(*before)[own.surface] : nullptr;
+        const auto sameOf = [&](const Surfaces* all) {
+            return all != nullptr && own.surface < all->size() ? &(*all)[own.surface] : nullptr;
+        };
+        own.before = sameOf(before);
+        own.leader = sameOf(leader);
         Result<std::unique_ptr<Tessellation>> made = Tessellation::create(own);
         if (!made) {
             return made.error();

@@ -12,8 +12,10 @@ namespace supple::runtime {
 class Surfaces {
 public:
     /// `desc` as for a surface of all parts, with the group's own description. Refuses what a scheme cannot take.
-    /// `before`: those of the group whose place this one takes; null: none.
-    [[nodiscard]] static Result<Surfaces> create(const TessellationDesc& desc, const Surfaces* before);
+    /// `before`: those of the group whose place this one takes. `leader`: those of the group that it follows, if
+    /// coefficients may be shared. Null: none.
+    [[nodiscard]] static Result<Surfaces> create(const TessellationDesc& desc, const Surfaces* before,
+                                                 const Surfaces* leader);
 
     [[nodiscard]] size_t size() const { return all_.size(); }
     [[nodiscard]] Tessellation& operator[](size_t index) { return *all_[index]; }

@@ -110,6 +110,7 @@ Status View::createBuffers() {
                                            "most " +
                                            std::to_string(records == 0 ? 0 : most)};
     }
+    const std::vector<uint16_t> indices = layOutGrids();
     gpu::BufferPlan plan(buffers_);
     words_ = plan.add(
         {"supple view", wordBytes, kOutput | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
@@ -117,12 +118,11 @@ Status View::createBuffers() {
     sizes_ = plan.add({"supple view, sizes", kSizeBytes + (countsOfView() ? 2 * maxRuns() * kCountBytes : 0),
                        kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     streams_.plan(plan, StreamSet::ofView(desc_.flags), desc_.vertexFormat, vertices, vertices, 1);
-    Status status = planPools(plan);
+    Status status = planPools(plan, indices.size() * sizeof(uint16_t));
     status = status ? plan.create(device, gpu::MemoryKind::deviceLocal) : status;
     if (!status) {
         return status;
     }
-    const std::vector<uint16_t> indices = layOutGrids();
     const gpu::StaticRequest request{"supple view, grid indices", kOutput | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
                                      std::as_bytes(std::span(indices))};
     Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(device, {&request, 1});
@@ -140,7 +140,20 @@ Status View::createBuffers() {
     return createMapped();
 }
 
-Status View::planPools(gpu::BufferPlan& plan) {
+Result<VkDeviceSize> View::poolBytes(VkDeviceSize others, VkDeviceSize most, uint32_t pools) const {
+    if (desc_.memoryBytes == 0) {
+        return desc_.coefficientBytes;
+    }
+    const VkDeviceSize least = others + pools * std::max<VkDeviceSize>(desc_.coefficientBytes, kPoolUnitBytes);
+    if (least > desc_.memoryBytes) {
+        return Error{ErrorCode::limit, "memoryBytes is " + std::to_string(desc_.memoryBytes) +
+                                           ": vertices and lists take " + std::to_string(others) +
+                                           ", with coefficients at least " + std::to_string(least)};
+    }
+    return desc_.coefficientBytes > 0 ? desc_.coefficientBytes : std::min((desc_.memoryBytes - others) / pools, most);
+}
+
+Status View::planPools(gpu::BufferPlan& plan, VkDeviceSize indexBytes) {
     const VkDeviceSize most = device_->bufferWindow(gpu::kVec4Bytes);
     if (desc_.coefficientBytes > most) {
         return Error{ErrorCode::limit, "coefficientBytes is " + std::to_string(desc_.coefficientBytes) +
@@ -148,10 +161,13 @@ Status View::planPools(gpu::BufferPlan& plan) {
                                            "most " +
                                            std::to_string(most)};
     }
-    poolUnits_ = static_cast<uint32_t>(desc_.coefficientBytes / kPoolUnitBytes);
-    const bool motion = (desc_.flags & SUPPLE_VIEW_MOTION) != 0;
-    const uint32_t count = poolUnits_ == 0 ? 0 : motion ? 2 : 1;
-    for (uint32_t p = 0; p < count; ++p) {
+    const uint32_t pools = (desc_.flags & SUPPLE_VIEW_MOTION) != 0 ? 2 : 1;
+    const Result<VkDeviceSize> bytes = poolBytes(plan.bytes(kPoolUnitBytes) + indexBytes, most, pools);
+    if (!bytes) {
+        return bytes.error();
+    }
+    poolUnits_ = static_cast<uint32_t>(*bytes / kPoolUnitBytes);
+    for (uint32_t p = 0; poolUnits_ > 0 && p < pools; ++p) {
         pools_[p] = plan.add({"supple view, coefficients", poolUnits_ * kPoolUnitBytes,
                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                               gpu::MemoryPurpose::coefficients});

@@ -125,7 +125,10 @@ public:
 
 private:
     [[nodiscard]] Status createBuffers();
-    [[nodiscard]] Status planPools(gpu::BufferPlan& plan);
+    /// Behind all other buffers of the plan. `indexBytes`: of grids.
+    [[nodiscard]] Status planPools(gpu::BufferPlan& plan, VkDeviceSize indexBytes);
+    /// Of a pool of coefficients, beside `others`. `most`: that a device can bind.
+    [[nodiscard]] Result<VkDeviceSize> poolBytes(VkDeviceSize others, VkDeviceSize most, uint32_t pools) const;
     [[nodiscard]] Status createMapped();               ///< for uploads, and for what the host reads
     [[nodiscard]] std::vector<uint16_t> layOutGrids(); ///< their indices; the host's words say where each grid is
     [[nodiscard]] Status createSolver(surface::Programs& passes);

@@ -103,6 +103,10 @@ std::vector<DispatchSize> Program::constructionSizes() const {
     return sizesOf({&vertex, &assemble, &edgeLevels, &patchLevels, &places});
 }
 
+uint32_t Program::constructionCount() const {
+    return static_cast<uint32_t>(sizesOf({&vertex, &assemble}).size());
+}
+
 std::vector<DispatchSize> Program::evaluationSizes() const {
     return sizesOf({&evaluate});
 }

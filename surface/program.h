@@ -133,6 +133,8 @@ struct Program {
     /// The sizes of the steps of vertex, assemble, edgeLevels, patchLevels and places, indexed by Step::argument. They
     /// are constructions in the order of the tables, then edges and patches by kind, then all patches.
     [[nodiscard]] std::vector<DispatchSize> constructionSizes() const;
+    /// How many of these are of vertex and assemble: the first ones.
+    [[nodiscard]] uint32_t constructionCount() const;
     /// The same of evaluate; motion has the same sizes. For groups whose instances have rates of their own.
     [[nodiscard]] std::vector<DispatchSize> evaluationSizes() const;
 };

@@ -6,7 +6,8 @@ using namespace supple::api; // NOLINT
 
 namespace {
 
-SuppleResult fillUse(Context& context, const char* function, const gpu::MemoryUse& use, SuppleMemoryUse* out) {
+SuppleResult fillUse(Context& context, const char* function, const gpu::MemoryUse& use, SuppleMemoryUse* out,
+                     VkDeviceSize givenBack = 0) {
     using gpu::MemoryPurpose;
     return describe(context, function, out, [&](SuppleMemoryUse& filled) {
         filled.allocationCount = use.allocations;
@@ -24,6 +25,7 @@ SuppleResult fillUse(Context& context, const char* function, const gpu::MemoryUs
         filled.readback = use.of(MemoryPurpose::readback);
         filled.spare = use.of(MemoryPurpose::spare);
         filled.spareVisible = use.of(MemoryPurpose::spareVisible);
+        filled.givenBack = givenBack;
     });
 }
 
@@ -42,8 +44,9 @@ SuppleResult suppleGetAssetMemory(SuppleContext handle, SuppleAsset asset, Suppl
 
 SuppleResult suppleGetGroupMemory(SuppleContext handle, SuppleGroup group, SuppleMemoryUse* out) {
     constexpr const char* kHere = "suppleGetGroupMemory";
-    return withGroup(handle, group, kHere,
-                     [&](Context& context, const Group& own) { return fillUse(context, kHere, own.memoryUse(), out); });
+    return withGroup(handle, group, kHere, [&](Context& context, const Group& own) {
+        return fillUse(context, kHere, own.memoryUse(), out, own.givenBackBytes());
+    });
 }
 
 SuppleResult suppleGetViewMemory(SuppleContext handle, SuppleView view, SuppleMemoryUse* out) {

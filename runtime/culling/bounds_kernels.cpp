@@ -57,9 +57,10 @@ std::array<float, 24> frustumPlanes(const std::array<float, 16>& columns) {
 Result<BoundsKernels> BoundsKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
     using gpu::narrowTexels, gpu::storage, gpu::wideStorage;
     const gpu::Binding bounds[] = {
-        wideStorage(kBoundsCageBinding), narrowTexels(kBoundsCageTexelBinding), storage(kBoundsBinding),
-        storage(kBoundsStateBinding),    wideStorage(kHostListBinding),         narrowTexels(kHostListTexelBinding),
-        storage(kCullViewBinding),
+        wideStorage(kBoundsCageBinding), narrowTexels(kBoundsCageTexelBinding),
+        storage(kBoundsBinding),         storage(kBoundsStateBinding),
+        wideStorage(kHostListBinding),   narrowTexels(kHostListTexelBinding),
+        storage(kCullViewBinding),       storage(kWantedBinding),
     };
     const gpu::Binding list[] = {
         storage(kBoundsBinding),       storage(kBoundsStateBinding),        narrowTexels(kBoundsStateTexelBinding),

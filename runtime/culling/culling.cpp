@@ -27,7 +27,12 @@ uint32_t Culling::firstPool() const {
 }
 
 uint32_t Culling::firstRateList() const {
-    return (firstPool() + 2 * windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+    return (firstConstructed() + windows_->capacity + kOffsetWords - 1) / kOffsetWords * kOffsetWords;
+}
+
+uint32_t Culling::stateStride() const {
+    constexpr uint32_t kSlots = kOffsetWords * kWordBytes / kStateBytes;
+    return (windows_->capacity + kSlots - 1) / kSlots * kSlots;
 }
 
 uint32_t Culling::rateStride() const {
@@ -43,8 +48,8 @@ void Culling::add(const Surface& surface) {
     place.coefficients = surface.coefficients;
     place.firstCoefficient = kPoolUnit * instanceUnits_;
     instanceUnits_ += (surface.coefficients + kPoolUnit - 1) / kPoolUnit;
-    for (const surface::DispatchSize& size : surface.sizes) {
-        add(size, kCountWindow);
+    for (uint32_t i = 0; i < surface.sizes.size(); ++i) {
+        add(surface.sizes[i], i < surface.constructions ? kCountConstructed : kCountWindow);
     }
     for (uint32_t r = 0; r < surface.rates.size(); ++r) {
         const Rate& rate = surface.rates[r];
@@ -65,7 +70,7 @@ void Culling::add(const Surface& surface) {
     rateCount_ = std::max(rateCount_, static_cast<uint32_t>(surface.rates.size()));
 }
 
-std::unique_ptr<Culling> Culling::create(const Desc& desc, std::span<const Surface> surfaces) {
+std::unique_ptr<Culling> Culling::create(Desc desc, std::span<const Surface> surfaces) {
     auto culling = std::make_unique<Culling>();
     culling->device_ = desc.device;
     culling->kernels_ = desc.kernels;
@@ -78,6 +83,9 @@ std::unique_ptr<Culling> Culling::create(const Desc& desc, std::span<const Surfa
     culling->push_.vertexCount = desc.cageVertices;
     culling->push_.cageStride = desc.cageStride;
     culling->drawnParts_ = desc.parts;
+    culling->leader_ = desc.leader;
+    culling->place_ = std::move(desc.place);
+    culling->push_.wanted = culling->place_.number() ? 1 : 0;
     culling->parts_.resize(desc.parts->count());
     for (const Surface& own : surfaces) {
         culling->add(own);
@@ -93,7 +101,7 @@ void Culling::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     const VkDeviceSize words = firstArgument() + firstDraw() + kDrawWords * VkDeviceSize{draws_.size()};
     const VkDeviceSize tableBytes = listTableBytes(windows_->count(), arguments_.size(), draws_.size(), parts_.size());
     bounds_ = device.add({"supple bounds", n * kBoundsBytes, kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
-    states_ = device.add({"supple visibility", n * kStateBytes, kStorage | kCopied});
+    states_ = device.add({"supple visibility", kStateRuns * stateStride() * kStateBytes, kStorage | kCopied});
     list_ = device.add({"supple instances seen", words * kWordBytes,
                         kStorage | kCopied | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT});
     table_ = device.add({"supple list table", tableBytes, kStorage | kCopied});
@@ -131,6 +139,13 @@ Status Culling::createSets(const Buffers& buffers) {
         return status;
     }
     listSets_.write(*device_, kernels_->listLayout(), 0, resources);
+    // The other runs of the states are those of other groups.
+    const VkDeviceSize stateBytes = windows_->capacity * kStateBytes;
+    resources[1].buffer.range = stateBytes;
+    const Culling& noted = leader_ != nullptr ? *leader_ : *this; // without a place nothing is noted
+    const VkDeviceSize run = (1 + place_.number().value_or(0)) * VkDeviceSize{noted.stateStride()} * kStateBytes;
+    resources.push_back({kWantedBinding, {noted.states_.buffer(), run, stateBytes}, VK_NULL_HANDLE});
+    leader_ = nullptr;
     const size_t own = resources.size();
     for (uint32_t w = 0; w < windows_->count() && status; ++w) {
         const VkDeviceSize first = windows_->firstSlot(w) * cageBytes, bytes = windows_->slots(w) * cageBytes;
@@ -257,6 +272,9 @@ PassCost Culling::recordList(gpu::Dispatches& dispatches, uint32_t room, uint32_
     push.argumentCount = static_cast<uint32_t>(arguments_.size());
     push.argumentStride = argumentStride();
     push.counts = 2 * kSizeRanks + kListHeaderWords * number;
+    push.sharers = sharers_->end();
+    push.sharerStride = stateStride();
+    push.constructed = firstConstructed();
     kernels_->recordList(dispatches, listSets_[0], push);
     return {0, 0, true};
 }
@@ -312,6 +330,15 @@ surface::Window Culling::window(uint32_t window, size_t surface) const {
     tellPool(result.push, surface);
     result.arguments = list_.buffer();
     result.firstArgument = (arguments + VkDeviceSize{3} * places_[surface].firstArgument) * kWordBytes;
+    return result;
+}
+
+surface::Window Culling::constructed(uint32_t window, size_t surface) const {
+    surface::Window result = this->window(window, surface);
+    if (sharers_->end() > 0) {
+        result.push.firstInstance = firstConstructed() + windows_->firstSlot(window);
+        result.push.instanceCount += kConstructedWord;
+    }
     return result;
 }
 

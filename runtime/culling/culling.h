@@ -8,10 +8,12 @@
 #include "runtime/change_staging.h"
 #include "runtime/culling/bounds_kernels.h"
 #include "runtime/culling/occlusion_kernels.h"
+#include "runtime/culling/sharers.h"
 #include "runtime/culling/visibility.h"
 #include "runtime/recorded_once.h"
 #include "surface/lod/instance.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -33,6 +35,7 @@ public:
     /// What a surface of the group asks for.
     struct Surface {
         std::vector<surface::DispatchSize> sizes; ///< dispatched for what is seen, by argument number
+        uint32_t constructions = 0;               ///< the first of these make coefficients
         surface::lod::InstanceMeasure measure;
         float margin = 0.0f;       ///< how far the surface may lie outside the box of its cage, as a part of its size
         uint32_t coefficients = 0; ///< that an instance takes of the view's pool; 0: the group has a pool of its own
@@ -49,9 +52,12 @@ public:
         const DrawnParts* parts = nullptr;
         uint32_t firstRate = 0; ///< segments along an edge of the cage; each further rate has twice as many
         uint32_t poolUnits = 0; ///< of the view's pool (shared::kPoolUnit)
+        // Of a group whose surfaces read the coefficients of the one that it follows:
+        const Culling* leader = nullptr; ///< during creation: of that group
+        SharerPlace place;
     };
     /// `needs`: of every surface of the group.
-    [[nodiscard]] static std::unique_ptr<Culling> create(const Desc& desc, std::span<const Surface> surfaces);
+    [[nodiscard]] static std::unique_ptr<Culling> create(Desc desc, std::span<const Surface> surfaces);
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
     /// What the passes read and write beside the group's own, once the plans are carried out.
     struct Buffers {
@@ -68,6 +74,7 @@ public:
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer) override;
     [[nodiscard]] InstanceList list() const override { return {list_.buffer(), list_.size(), windows_->capacity}; }
     [[nodiscard]] surface::Window window(uint32_t window, size_t surface) const override;
+    [[nodiscard]] surface::Window constructed(uint32_t window, size_t surface) const override;
     void tellPool(shared::WindowPush& push, size_t surface) const override;
     [[nodiscard]] PassCost cost(uint64_t points, uint64_t bytes) const override;
     void addTransfers(Transfers& transfers) const override;
@@ -80,6 +87,8 @@ public:
     /// frame uses any more; `generation` tells whether that set has this pyramid.
     PassCost recordOcclusion(VkCommandBuffer commandBuffer, uint64_t place, const SuppleDepthPyramidDesc& pyramid,
                              uint64_t generation);
+    /// Who reads the coefficients that the group constructs. recordList() and constructed() take them as they are now.
+    [[nodiscard]] const std::shared_ptr<Sharers>& sharers() const { return sharers_; }
     /// Units of the view's pool that an instance takes.
     [[nodiscard]] uint32_t instanceUnits() const { return instanceUnits_; }
     /// The frame writes this one of the view's two pools.
@@ -110,10 +119,12 @@ public:
     [[nodiscard]] static uint32_t firstMask(uint32_t capacity) { return 3 * capacity; }
     /// How many times `capacity` words lie before the arguments.
     [[nodiscard]] static uint32_t lists(uint32_t parts, uint32_t rates) {
-        return 3 + DrawnParts::wordsOf(parts) + 2 + rates * (2 + parts);
+        const uint32_t words = 3 + DrawnParts::wordsOf(parts) + 2 + 1 + rates * (2 + parts);
+        return std::max(words, kStateRuns + 1); // and states, each run of which begins at an aligned offset
     }
 
 private:
+    static constexpr uint32_t kStateRuns = 1 + shared::kMaxSharers;
     /// Where what a surface needs begins.
     struct Place {
         uint32_t firstArgument = 0;               ///< of its construction, in arguments_
@@ -127,9 +138,11 @@ private:
     [[nodiscard]] uint32_t partCount() const { return drawnParts_->count(); }
     void listParts(const InstanceSlots& slots);
     // Words of the list: all that are seen, those of every window, their levels; masks of parts; two a slot for its
-    // places in the view's pool; for every rate all, those of every window, those that show a part; then the arguments,
-    // the counts of rates and their draws.
+    // places in the view's pool; what every window constructs; for every rate all, those of every window, those that
+    // show a part; then the arguments, the counts of rates and their draws.
     [[nodiscard]] uint32_t firstPool() const;
+    [[nodiscard]] uint32_t firstConstructed() const { return firstPool() + 2 * windows_->capacity; }
+    [[nodiscard]] uint32_t stateStride() const; ///< slots from one run of states to the next
     [[nodiscard]] uint32_t firstRateList() const;
     [[nodiscard]] uint32_t rateStride() const;
     [[nodiscard]] uint32_t firstArgument() const { return firstRateList() + rateCount_ * rateStride(); }
@@ -161,6 +174,9 @@ private:
     gpu::PlannedBuffer bounds_, states_, list_, table_;
     ChangeStaging tables_, masks_;
     ZeroedOnce clear_; ///< of states_
+    std::shared_ptr<Sharers> sharers_ = std::make_shared<Sharers>();
+    const Culling* leader_ = nullptr; ///< until there are sets
+    SharerPlace place_;
     gpu::TexelViews views_;
     gpu::BoundSets boundsSets_;      ///< by window
     gpu::BoundSets listSets_;        ///< one

@@ -39,6 +39,10 @@ public:
     [[nodiscard]] virtual InstanceList list() const = 0;
     /// The instances of a window, for the passes of the group's n-th surface. The sets are the caller's.
     [[nodiscard]] virtual surface::Window window(uint32_t window, size_t surface) const = 0;
+    /// The same of those that have coefficients constructed: other groups may draw some of them.
+    [[nodiscard]] virtual surface::Window constructed(uint32_t window, size_t surface) const {
+        return this->window(window, surface);
+    }
     /// Where instances of the surface have their coefficients.
     virtual void tellPool(shared::WindowPush& push, size_t surface) const = 0;
     /// The cost of a pass, given what it writes per instance.

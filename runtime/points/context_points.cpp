@@ -77,7 +77,7 @@ Result<uint64_t> Context::createPointSet(const SupplePointSetDesc& desc) {
     group->points().makeRoom();
     const uint64_t id = pointSets.insert(*set);
     group->points().add(std::move(*set));
-    group->notePointsChanged(++groupsMade_);
+    group->noteBuffersChanged(++groupsMade_);
     return id;
 }
 
@@ -88,7 +88,7 @@ bool Context::destroyPointSet(uint64_t id) {
     }
     if (const std::shared_ptr<Group> group = groups.find(set->group())) {
         group->points().remove(*set, set->lastRecordedFrame() > 0 ? frame_ : 0);
-        group->notePointsChanged(++groupsMade_);
+        group->noteBuffersChanged(++groupsMade_);
     }
     return true;
 }
@@ -128,7 +128,7 @@ Status Context::remakePoints(const Group& before, Remade& remade) {
         group.points().add(*made);
         own.set = std::move(*made);
     });
-    group.notePointsChanged(++groupsMade_);
+    group.noteBuffersChanged(++groupsMade_);
     return status;
 }
 

@@ -422,6 +422,7 @@ template <class A, CallStruct<SuppleViewDesc> T>
 void fields(A& a, T& desc) {
     a.sized(desc);
     a(desc.flags, desc.maxVertices, desc.vertexFormat, desc.elasticities, desc.maxRuns, desc.coefficientBytes);
+    a.later(desc.memoryBytes);
 }
 template <class A, CallStruct<SuppleGroupDesc> T>
 void fields(A& a, T& desc) {
@@ -432,6 +433,7 @@ void fields(A& a, T& desc) {
     a.optional(desc.blend);
     a.optional(desc.fragments);
     a.list(desc.partSchemes, desc.partSchemeCount);
+    a.later(desc.keepUnseenFrames);
 }
 template <class A, CallStruct<SuppleJointMatricesDesc> T>
 void fields(A& a, T& desc) {

@@ -15,7 +15,7 @@
 namespace supple::runtime {
 
 inline constexpr char kRecordingMagic[] = {'S', 'U', 'P', 'P', 'R', 'E', 'C', '\n'};
-inline constexpr uint32_t kRecordingVersion = 3, kOldestRecordingVersion = 2; ///< written; that can be read
+inline constexpr uint32_t kRecordingVersion = 4, kOldestRecordingVersion = 2; ///< written; that can be read
 
 enum class ChunkKind : uint32_t { header = 1, asset, call, hashes, end };
 

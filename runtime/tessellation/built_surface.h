@@ -32,6 +32,7 @@ struct TessellationDesc {
     bool schemeChosen = false;            ///< the host left it to Supple: outputs that the scheme lacks are left out
     uint32_t surface = 0;                 ///< its number in the group
     const Tessellation* before = nullptr; ///< during creation: the surface whose place it takes; null: none
+    const Tessellation* leader = nullptr; ///< of the group that this one follows, if that may share coefficients
     bool countsHidden = true;             ///< it has the first patches at levels of the group
     uint32_t framesInFlight = 2;
     bool handsOver = false; ///< to another queue family: all output is written anew in every frame

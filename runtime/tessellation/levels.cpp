@@ -131,6 +131,7 @@ void Levels::layOutDraws(uint32_t windowCount) {
 Culling::Surface Levels::culledSurface() const {
     Culling::Surface surface;
     surface.sizes = program_.constructionSizes();
+    surface.constructions = program_.constructionCount();
     surface.coefficients = view()->poolUnits() > 0 ? tables().poolStride : 0;
     surface.measure = desc_.asset->prepared->measureOf(*built_.scheme->prepared);
     surface.margin = boundsMargin();

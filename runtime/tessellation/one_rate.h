@@ -33,6 +33,10 @@ public:
                                     const Visibility& visibility) override;
     void fillGrid(SuppleGridOutput& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
+    void freeSets() override {
+        hostDraws_.setChanged();
+        OwnVertices::freeSets();
+    }
     void recordNoDraws(VkCommandBuffer commandBuffer) override { hostDraws_.recordNone(*desc_.device, commandBuffer); }
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
     PassCost recordEvaluate(surface::Round& round) const override;

@@ -133,6 +133,11 @@ Status OwnVertices::createSets(const SurfaceInput& input, const InstanceListing&
     return Tessellation::createSets(input, listing, visibility);
 }
 
+void OwnVertices::freeSets() {
+    attributes_.renew(built_.outputs.streams.has(Stream::attributes));
+    Tessellation::freeSets();
+}
+
 VkDeviceSize OwnVertices::recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) {
     if (indices_.release.due()) { // the indices are on the device by now
         indices_.release.record(frame);
@@ -152,7 +157,7 @@ void OwnVertices::recordAttributeSteps(gpu::Dispatches& dispatches) const {
 }
 
 PassCost OwnVertices::recordAttributes(gpu::Dispatches& dispatches, uint64_t frame) {
-    if (!attributes_.due()) {
+    if (!attributesDue()) {
         return {};
     }
     attributes_.record(frame);

@@ -38,7 +38,8 @@ public:
     [[nodiscard]] Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                     const Visibility& visibility) override;
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, bool changed) override;
-    [[nodiscard]] bool attributesDue() const override { return attributes_.due(); }
+    void freeSets() override;
+    [[nodiscard]] bool attributesDue() const override { return hasBuffers() && attributes_.due(); }
     PassCost recordAttributes(gpu::Dispatches& dispatches, uint64_t frame) override;
 
 protected:

@@ -30,6 +30,8 @@ public:
     [[nodiscard]] Culling::Surface culledSurface() const override;
     [[nodiscard]] Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                     const Visibility& visibility) override;
+    void freeSets() override;
+    [[nodiscard]] Status remakeSets() override;
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_RATES; }
     void fillGrid(SuppleGridOutput& output) const override;
     [[nodiscard]] Status prepareRate(uint32_t rate) override;
@@ -180,6 +182,7 @@ Status Rates::join(const InstanceWindows&) {
 Culling::Surface Rates::culledSurface() const {
     Culling::Surface surface;
     surface.sizes = program_.constructionSizes();
+    surface.constructions = program_.constructionCount();
     surface.measure = desc_.asset->prepared->measureOf(*built_.scheme->prepared);
     surface.margin = boundsMargin();
     for (const uint32_t place : places_) {
@@ -198,6 +201,21 @@ Status Rates::createSets(const SurfaceInput& input, const InstanceListing& listi
     }
     for (uint32_t r = 0; status && r < rates_.size(); ++r) {
         rates_[r].instances = culling().rateList(r);
+    }
+    return status;
+}
+
+void Rates::freeSets() {
+    for (Rate& rate : own_) {
+        rate.sets = {};
+    }
+    OwnVertices::freeSets();
+}
+
+Status Rates::remakeSets() {
+    Status status = OwnVertices::remakeSets();
+    for (Rate& rate : own_) {
+        status = status ? makeSets(rate.sets, *rate.scheme, rate.program) : status;
     }
     return status;
 }
@@ -237,6 +255,9 @@ gpu::TaskNeeds Rates::taskNeeds() const {
 }
 
 void Rates::recordWarmUp(VkCommandBuffer commandBuffer) const {
+    if (!hasBuffers()) {
+        return;
+    }
     OwnVertices::recordWarmUp(commandBuffer);
     for (const Rate& rate : own_) {
         Tessellation::recordWarmUp(commandBuffer, rate.program, rate.sets);

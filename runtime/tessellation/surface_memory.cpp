@@ -36,8 +36,8 @@ void SurfaceMemory::plan(const Desc& desc, gpu::BufferPlan& device) {
     constexpr gpu::MemoryPurpose kCoefficients = gpu::MemoryPurpose::coefficients;
     const VkDeviceSize n = desc.capacity;
     const VkDeviceSize poolBytes = n * desc.poolStride * gpu::kVec4Bytes;
-    pools_ = desc.pools;
-    if (!sharesPools()) {
+    pools_ = desc.leader != nullptr ? desc.leader->pools_ : desc.pools;
+    if (ownsPools()) {
         pools_[0] = device.add(
             {"supple coefficient pool", poolBytes, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
         pools_[1] = device.add({"supple second coefficient pool", desc.motion ? poolBytes : 0,
@@ -55,8 +55,12 @@ void SurfaceMemory::attach(const SurfaceInput& input, const InstanceListing& lis
     input_ = input;
     listing_ = &listing;
     list_ = list;
+    attach();
+}
+
+void SurfaceMemory::attach() {
     for (const gpu::PlannedBuffer& pool : pools_) {
-        if (!sharesPools()) {
+        if (ownsPools()) {
             clear_.add(*desc_.device, pool);
         }
     }

@@ -38,12 +38,16 @@ public:
         uint32_t patchCount = 0;
         uint32_t poolStride = 0, cageStride = 0; ///< of an instance, in elements (surface::Tables)
         SharedPools pools;                       ///< in the place of the group's own
+        const SurfaceMemory* leader = nullptr;   ///< whose pools it reads and writes, by slot; null: it has its own
         uint32_t scratchStride = 0;              ///< 0: there is none
         bool sizesInScratch = false;             ///< of dispatches
     };
     void plan(const Desc& desc, gpu::BufferPlan& device);
     /// When the plan is carried out. The list must outlive it.
     void attach(const SurfaceInput& input, const InstanceListing& listing, const InstanceList& list);
+    /// The buffers of the plan are gone, then they are there again: attach() once more.
+    void detach() { clear_.forget(); }
+    void attach();
 
     /// What differs by owner of the vertices: streams, scratch memory, the view's words.
     using BindOutput = std::function<void(const SurfaceSets::Which&, SetContents&)>;
@@ -55,7 +59,9 @@ public:
     [[nodiscard]] const gpu::PlannedBuffer& patches() const { return patches_; }
     [[nodiscard]] const gpu::PlannedBuffer& scratch() const { return scratch_; }
     [[nodiscard]] bool hasMotion() const { return pools_[1].buffer() != VK_NULL_HANDLE; }
+    /// Pools of the view, in which instances have no place of their own.
     [[nodiscard]] bool sharesPools() const { return desc_.pools[0].buffer() != VK_NULL_HANDLE; }
+    [[nodiscard]] bool ownsPools() const { return !sharesPools() && desc_.leader == nullptr; }
     /// Own pools. No result depends on coefficients that no stage writes, but kernels may load them.
     [[nodiscard]] ZeroedOnce& clear() { return clear_; }
 

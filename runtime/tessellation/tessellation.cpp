@@ -1,6 +1,7 @@
 #include "runtime/tessellation/tessellation.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -100,13 +101,26 @@ BoundBytes Tessellation::boundBytes() const {
     return {std::max(poolStride, scratchStride()) * gpu::kVec4Bytes, patchBytes};
 }
 
+bool Tessellation::fits(const Tessellation& leader) const {
+    const auto writesPast = [](const Tessellation& surface) {
+        return surface.built_.outputs.streams.has(Stream::previousPositions);
+    };
+    // How deep chains go is the view's affair, and stands among the coefficients.
+    return view() != nullptr && leader.view() != nullptr && view()->poolUnits() == 0 && leader.hasBuffers() &&
+           leader.view()->poolUnits() == 0 && built_.scheme == leader.built_.scheme && !findsDepths() &&
+           !tables().patches.empty() && writesPast(*this) == writesPast(leader);
+}
+
 void Tessellation::plan(gpu::BufferPlan& device, gpu::BufferPlan&) {
+    const Tessellation* const followed = std::exchange(desc_.leader, nullptr);
+    leader_ = followed != nullptr && fits(*followed) ? followed : nullptr;
     SurfaceMemory::Desc desc{desc_.device, desc_.programs, desc_.pairs, desc_.group.capacity, view() != nullptr};
     desc.motion = built_.outputs.streams.has(Stream::previousPositions) && !tables().patches.empty();
     desc.patches = built_.outputs.patches;
     desc.patchCount = static_cast<uint32_t>(tables().patches.size());
     desc.poolStride = tables().poolStride;
     desc.pools = sharedPools();
+    desc.leader = leader_ != nullptr ? &leader_->memory_ : nullptr;
     desc.cageStride = tables().cageStride;
     desc.scratchStride = scratchStride();
     desc.sizesInScratch = !program_.deepen.empty();
@@ -123,6 +137,16 @@ Status Tessellation::createSets(const SurfaceInput& input, const InstanceListing
     return makeSets(sets_, *built_.scheme, program_);
 }
 
+void Tessellation::freeSets() {
+    memory_.detach();
+    sets_ = {};
+}
+
+Status Tessellation::remakeSets() {
+    memory_.attach();
+    return makeSets(sets_, *built_.scheme, program_);
+}
+
 Status Tessellation::makeSets(SurfaceSets& target, const SchemeTables& scheme, const surface::Program& program) const {
     return memory_.makeSets(
         target, scheme.buffers, program,
@@ -132,7 +156,9 @@ Status Tessellation::makeSets(SurfaceSets& target, const SchemeTables& scheme, c
 void Tessellation::addTransfers(Transfers&, uint64_t) const {}
 
 void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer) const {
-    recordWarmUp(commandBuffer, program_, sets_);
+    if (hasBuffers_) {
+        recordWarmUp(commandBuffer, program_, sets_);
+    }
 }
 
 void Tessellation::recordWarmUp(VkCommandBuffer commandBuffer, const surface::Program& program,
@@ -167,7 +193,7 @@ gpu::TaskNeeds Tessellation::taskNeedsOf(const surface::Program& program) const 
 
 VkDeviceSize Tessellation::recordUpload(VkCommandBuffer, uint64_t, bool) {
     if (writesMotion()) {
-        pool_ = 1 - pool_;
+        pool_ = leader_ != nullptr ? leader_->pool_ : 1 - pool_;
     }
     return 0;
 }
@@ -183,7 +209,14 @@ surface::Window Tessellation::seen(uint32_t window) const {
 }
 
 PassCost Tessellation::recordStage(surface::Round& round, surface::Stage stage) const {
-    windows().forEach([&](uint32_t w) { surface::record(round, stepsOf(stage), seen(w)); });
+    if (!constructs_) {
+        return {};
+    }
+    windows().forEach([&](uint32_t w) {
+        surface::Window window = visibility_->constructed(w, desc_.surface);
+        window.sets = sets(w);
+        surface::record(round, stepsOf(stage), window);
+    });
     uint64_t points = 0, coefficients = 0;
     for (const surface::Construction& construction : tables().constructions) {
         if (construction.stage == stage) {

@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace supple::runtime {
@@ -88,6 +89,16 @@ public:
     [[nodiscard]] virtual Status createSets(const SurfaceInput& input, const InstanceListing& listing,
                                             const Visibility& visibility);
 
+    // The planned buffers may be given back (runtime/surface_buffers.h).
+    /// Nothing is recorded until takeBuffers(). Frames in flight may still use buffers and sets.
+    void giveBuffers() { hasBuffers_ = false; }
+    void takeBuffers() { hasBuffers_ = true; }
+    /// No frame uses the sets any more, and the buffers are about to be freed.
+    virtual void freeSets();
+    /// Before takeBuffers(), if the buffers are new ones.
+    [[nodiscard]] virtual Status remakeSets();
+    [[nodiscard]] bool hasBuffers() const { return hasBuffers_; }
+
     [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
     /// What its passes need in a frame.
     [[nodiscard]] virtual gpu::TaskNeeds taskNeeds() const { return taskNeedsOf(program_); }
@@ -117,6 +128,10 @@ public:
     void inRounds(gpu::Dispatches& dispatches, Record&& record) const {
         surface::inRounds(dispatches, std::forward<Record>(record));
     }
+    /// Whether it reads coefficients that the surface of a followed group constructs.
+    [[nodiscard]] bool sharesCoefficients() const { return leader_ != nullptr; }
+    /// It constructs them itself in the coming frame. True: it did not in the last one, or the other way round.
+    bool setConstructs(bool constructs) { return std::exchange(constructs_, constructs) != constructs; }
     /// Which of the two pools of coefficients the newest frame writes.
     [[nodiscard]] uint32_t pool() const { return pool_; }
     /// How far the origin of the coordinates has moved since the group's last recording.
@@ -214,8 +229,12 @@ protected:
     SurfaceSets sets_;
     uint32_t pool_ = 0; ///< of the newest frame
     glm::vec3 pastStep_{0.0f};
+    bool hasBuffers_ = true, constructs_ = true;
+    const Tessellation* leader_ = nullptr; ///< which shares its coefficients, as long as its group is there
 
 private:
+    /// Whether the leader's coefficients can be its own.
+    [[nodiscard]] bool fits(const Tessellation& leader) const;
     [[nodiscard]] const surface::Steps& stepsOf(surface::Stage stage) const;
 };
 

@@ -6,6 +6,7 @@
 #include "shaders/bounds/cull.glsl"
 
 BUFFER(writeonly, Bounds, kBoundsBinding, std430, vec4, bounds)
+BUFFER(writeonly, Wanted, kWantedBinding, std430, uvec2, wanted)
 BUFFER(readonly, View, kCullViewBinding, std430, CullView, views)
 #define view views.at[0]
 
@@ -73,7 +74,9 @@ void store(uint entry, Box box) {
     bounds.at[2u * slot] = vec4(low, level);
     bounds.at[2u * slot + 1u] = vec4(high, box.sound ? 0.0 : 1.0);
     uint last = ((view.ranks >> (8u * priority)) & 255u) * kSizeBins + kSizeBins; // not to be judged: the last to go
-    states.at[slot].x = box.sound ? rankOf(low, high, priority) : last;
+    uint rank = box.sound ? rankOf(low, high, priority) : last;
+    states.at[slot].x = rank;
+    if (push.wanted != 0u) wanted.at[slot] = uvec2(rank, 0u);
     if ((entry & kInstanceIsNew) != 0u) states.at[slot].y = 0u; // the memory may never have been written
 }
 

@@ -61,6 +61,45 @@ uvec4 kind(uint entry, uvec2 state, uint leftOut) {
     return (withPast(entry, state) & kInstanceIsNew) != 0u ? uvec4(0u, 1u, 0u, 0u) : uvec4(1u, 0u, 0u, 0u);
 }
 
+// Whether a group sees it that reads the coefficients which this one constructs.
+bool isWanted(uint slot) {
+    uint found = 0u;
+    [[dont_unroll]] for (uint k = 1u; k <= min(push.sharers, kMaxSharers); ++k) found |= state(push.sharerStride * k + slot).x;
+    return found != 0u;
+}
+void clearWanted(uint slot) {
+    [[dont_unroll]] for (uint k = 1u; k <= min(push.sharers, kMaxSharers); ++k) states.at[push.sharerStride * k + slot].x = 0u;
+}
+
+// Lists what a window constructs, and counts it. `counts`: of what it draws.
+uint listConstructed(uvec4 window, uvec2 run, uint leftOut, uvec4 counts) {
+    if (push.sharers == 0u) return counts.x + counts.y;
+    uint lane = gl_LocalInvocationID.x, own = 0u;
+    for (uint i = run.x; i < run.y; ++i) {
+        uint entry = hostEntry(i), slot = entry & kInstanceSlotMask;
+        uvec4 one = kind(entry, state(slot), leftOut);
+        own += one.x + one.y > 0u || isWanted(slot) ? 1u : 0u;
+    }
+    sumsOf[lane] = own;
+    barrier();
+    uint place = push.constructed + window.z, count = 0u;
+    [[dont_unroll]] for (uint l = 0u; l < gl_WorkGroupSize.x; ++l) {
+        place += l < lane ? sumsOf[l] : 0u;
+        count += sumsOf[l];
+    }
+    for (uint i = run.x; i < run.y; ++i) {
+        uint entry = hostEntry(i), slot = entry & kInstanceSlotMask;
+        uvec4 one = kind(entry, state(slot), leftOut);
+        if (one.x + one.y > 0u || isWanted(slot)) {
+            list.at[place] = (slot - window.z) | (entry & ~kInstanceSlotMask);
+            ++place;
+        }
+        clearWanted(slot);
+    }
+    barrier(); // the next window writes the sums
+    return count;
+}
+
 void storeHeader(uint at, uvec4 counts, uint listed) {
     argumentWords.at[at] = counts.x + counts.y;
     argumentWords.at[at + 1u] = counts.x;
@@ -105,6 +144,7 @@ void main() {
             firstPool = units > 0u ? atomicAdd(words.at[kLodPoolEnd], units) : 0u;
         }
         barrier();
+        uint constructed = listConstructed(window, run, leftOut, counts);
 
         uint all = push.all + total.x + total.y + before.x + before.y;
         uvec2 places = window.w + uvec2(before.x, counts.x + before.y);
@@ -126,8 +166,12 @@ void main() {
             }
             states.at[slot].y = one.x != 0u ? kDrawnWithPast : drawn ? kDrawn : 0u;
         }
-        if (lane == 0u) storeHeader(kListHeaderWords * (w + 1u), counts, window.y);
+        if (lane == 0u) {
+            storeHeader(kListHeaderWords * (w + 1u), counts, window.y);
+            argumentWords.at[kListHeaderWords * (w + 1u) + kConstructedWord] = constructed;
+        }
         storeArguments(kCountWindow, counts.x + counts.y, w);
+        storeArguments(kCountConstructed, constructed, w);
         total += counts;
         listed += window.y;
     }

@@ -29,6 +29,10 @@
 //              VkDrawIndexedIndirectCommand for all windows. Number 0: no instance hides the part, and the draw reads
 //              the list of all instances at the rate
 //   part       (part, -, -, -): has list 1, 2, .. at every rate
+// Groups that draw the same instances in other views may read the coefficients of the group that they follow. Then the latter
+// constructs what any of them sees: `bounds` of such a group notes that in its own run of the followed group's states, `sharerStride`
+// slots behind the run before, where 0 in the first word says that the slot is not seen. `list` of the followed group lists those
+// besides, clears the notes, and counts them in word kConstructedWord of a window's header. The order is that of slots.
 // Masks, a part of the list that the host writes: for every slot wordsOf(parts) words (runtime/hidden_parts.h), how many
 // patches it hides and a bit for every part that it hides. They are read only where the entry in the host's list says
 // kInstanceHidesParts.
@@ -60,6 +64,7 @@ SUPPLE_SHARED_CONST kListTableBinding = 9u;
 SUPPLE_SHARED_CONST kCullViewBinding = 10u;
 SUPPLE_SHARED_CONST kSizeBinding = 12u;
 SUPPLE_SHARED_CONST kViewWordsBinding = 13u; // shaders/shared/lod.h
+SUPPLE_SHARED_CONST kWantedBinding = 14u;    // a run of another group's states
 
 SUPPLE_SHARED_CONST kOccluded = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kDrawn = 1u;
@@ -94,6 +99,7 @@ struct BoundsPush {
     float margin;   // the box is made larger by this much of its size on every side
     float longest;  // edge of the cage in its bind pose, as a part of the diagonal of the cage's box
     float bend;     // and the largest second difference (surface/lod/instance.h)
+    uint wanted;    // 1: what is seen is noted for the group that constructs it
 };
 struct SizePush {
     uint firstEntry; // of the host list
@@ -106,6 +112,8 @@ struct SizePush {
 SUPPLE_SHARED_CONST kCountWindow = 0u; // all of the window
 SUPPLE_SHARED_CONST kCountRate = 1u;   // of the window at this rate; the next at the next one
 SUPPLE_SHARED_CONST kMaxRates = 7u;    // 1, 2, 4 .. 64 segments along an edge
+SUPPLE_SHARED_CONST kCountConstructed = 8u; // those of the window that have coefficients constructed
+SUPPLE_SHARED_CONST kMaxSharers = 7u;       // groups that read the coefficients of one
 SUPPLE_SHARED_CONST kDrawListShift = 8u;
 
 struct ListPush {
@@ -120,6 +128,9 @@ struct ListPush {
     uint pools;     // words of the list in which slots have their places: every second from here on
     uint maxGroups; // of a dispatch in x
     uint counts;    // shared dispatches: word of the sizes that the header of all windows is written to as well
+    uint sharers;   // runs behind the states to look at; 0: what is drawn is constructed, and has no list of its own
+    uint sharerStride;
+    uint constructed; // first entry of the list of what is constructed, by window
 };
 struct DemandPush {
     uint firstEntry; // of the host list
@@ -164,6 +175,7 @@ struct OcclusionPush {
 };
 
 SUPPLE_SHARED_CONST kListHeaderWords = 8u; // of all, and of every window
+SUPPLE_SHARED_CONST kConstructedWord = 5u; // of a window's
 
 SUPPLE_SHARED_END
 

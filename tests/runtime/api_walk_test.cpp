@@ -1326,6 +1326,8 @@ void views(Rows& r) {
     spoiled("too few coefficients", kBad, kRange, [](Desc& d) { d.coefficientBytes = 255; });
     spoiled("more coefficients than can be bound", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
             [](Desc& d) { d.coefficientBytes = uint64_t{1} << 40; });
+    spoiled("less memory than that takes", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
+            [](Desc& d) { d.memoryBytes = 4096; });
     spoiled("elasticity", kBad, kRange, [](Desc& d) { d.elasticities[1] = 1.5f; });
     spoiled("elasticity NaN", kBad, kRange, [](Desc& d) { d.elasticities[3] = kNan; });
     spoiled("more than the budget counts", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,

@@ -215,6 +215,7 @@ public:
                 {kCullViewBinding, whole(view)},
                 {kSizeBinding, whole(sizes)},
                 {kViewWordsBinding, whole(words)},
+                {kWantedBinding, whole(states_)},
             };
             sets.write(device_, bounds_.boundsLayout(), w, resources);
             if (w == 0) {

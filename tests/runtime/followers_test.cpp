@@ -7,10 +7,13 @@
 #include "tests/support/test_view.h"
 #include "tools/common/procedural.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <memory>
+#include <vector>
 
 namespace supple::test {
 namespace {
@@ -99,7 +102,11 @@ TEST_F(Followers, DrawWhatGroupsOfTheirOwnDraw) {
             for (Crowd* crowd : {&leaderAlone, &mirrorAlone, &gridsAlone}) {
                 moveFollowed(*crowd, alone[k++], frame);
             }
-            // In any order; and in frame 4 the mirror is not looked at, so that its instances are new afterwards.
+            // In any order; and in frame 4 the mirror is not looked at. As it shares coefficients with the leader, its
+            // instances are new afterwards.
+            for (const SuppleInstance instance : frame == 5 ? alone[1] : std::vector<SuppleInstance>{}) {
+                mirrorAlone.teleport(instance);
+            }
             std::vector<SuppleGroup> together = {grids.group(), leader.group()};
             if (frame != 4) {
                 together.push_back(mirror.group());
@@ -232,6 +239,140 @@ TEST_F(Followers, AreRecordedWithTheirLeader) {
         EXPECT_EQ(own.CrowdContext::record(buffer, {&groups[1], 1}), SUPPLE_ERROR_ARGUMENT);
     });
     EXPECT_EQ(own.takeCount(SUPPLE_MESSAGE_OUT_OF_ORDER), 1u);
+}
+
+/// Views of the followed instances, from the left and from the right: each sees some that the other does not.
+void lookFromTwoSides(TestView& left, TestView& right) {
+    for (TestView* view : {&left, &right}) {
+        const float x = view == &left ? -4.0f : 4.0f;
+        const glm::vec3 eye(x, 1, 8);
+        const glm::mat4 seen =
+            glm::perspectiveRH_ZO(0.3f, 1.0f, 0.1f, 500.0f) * glm::lookAt(eye, glm::vec3(x, 0, 0), glm::vec3(0, 1, 0));
+        std::memcpy(view->camera.viewProjection, &seen, sizeof seen);
+        view->look(eye);
+    }
+}
+
+uint64_t coefficientsOf(const Crowd& crowd) {
+    SuppleMemoryUse use{};
+    use.structSize = sizeof(use);
+    EXPECT_EQ(suppleGetGroupMemory(crowd.context().handle(), crowd.group(), &use), SUPPLE_OK);
+    return use.coefficients;
+}
+
+bool drawsOneThatIsNotIn(const DrawnPatches& some, const DrawnPatches& others) {
+    return std::any_of(some.begin(), some.end(), [&](const auto& own) {
+        return std::none_of(others.begin(), others.end(),
+                            [&](const auto& other) { return other.first.slot == own.first.slot; });
+    });
+}
+
+/// In every view the coefficients are those that the followed group has made, of what either of them sees.
+void expectSharedCoefficients(CrowdContext& own, SuppleScheme scheme, bool shares) {
+    const SuppleAsset asset = own.asset(kFollowed);
+    constexpr uint32_t kFlags = SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL;
+    TestView left(own, 300000, kFlags, 0, 0), right(own, 300000, kFlags, 0, 0);
+    TestView leftAlone(own, 300000, kFlags, 0, 0), rightAlone(own, 300000, kFlags, 0, 0);
+    lookFromTwoSides(left, right);
+    lookFromTwoSides(leftAlone, rightAlone);
+    SuppleGroupDesc desc = followedDesc(asset, left.handle());
+    desc.scheme = scheme;
+    desc.rate = 4;
+    Crowd leader(own, desc);
+    Crowd mirror(own, followerDesc(leader, asset, scheme, right.handle()));
+    desc.view = leftAlone.handle();
+    Crowd leaderAlone(own, desc);
+    desc.view = rightAlone.handle();
+    Crowd mirrorAlone(own, desc);
+    EXPECT_EQ(coefficientsOf(leader), coefficientsOf(leaderAlone));
+    EXPECT_EQ(coefficientsOf(mirror), shares ? 0 : coefficientsOf(mirrorAlone));
+    std::vector<SuppleInstance> together, alone[2];
+    bool onLeft = false, onRight = false;
+    for (uint32_t frame = 0; frame < 6; ++frame) {
+        SCOPED_TRACE("frame " + std::to_string(frame));
+        moveFollowed(leader, together, frame);
+        moveFollowed(leaderAlone, alone[0], frame);
+        moveFollowed(mirrorAlone, alone[1], frame);
+        const SuppleGroup first = leader.group(), second = mirror.group();
+        own.beginFrame();
+        ASSERT_TRUE(own.device()
+                        .submitAndWait([&](VkCommandBuffer commands) {
+                            if (frame == 3) { // the followed group does not know what the mirror sees
+                                EXPECT_EQ(own.record(commands, {&first, 1}), SUPPLE_OK);
+                                EXPECT_EQ(own.record(commands, {&second, 1}), SUPPLE_OK);
+                            } else {
+                                EXPECT_EQ(own.record(commands, std::array{first, second}), SUPPLE_OK);
+                            }
+                        })
+                        .ok());
+        leaderAlone.run();
+        mirrorAlone.run();
+        const DrawnPatches ofLeader = drawnPatches(leader), ofMirror = drawnPatches(mirror);
+        EXPECT_TRUE(ofLeader == drawnPatches(leaderAlone));
+        EXPECT_TRUE(ofMirror == drawnPatches(mirrorAlone));
+        onLeft = onLeft || drawsOneThatIsNotIn(ofLeader, ofMirror);
+        onRight = onRight || drawsOneThatIsNotIn(ofMirror, ofLeader);
+    }
+    EXPECT_TRUE(onLeft && onRight) << "each has drawn what the other did not see";
+}
+
+TEST_F(Followers, ReadTheCoefficientsOfTheGroupThatTheyFollow) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        for (const SuppleScheme scheme :
+             {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_FRAGMENTS, SUPPLE_SCHEME_CATMULL_CLARK}) {
+            SCOPED_TRACE(std::string(mappingName(mapping)) + ", scheme " + std::to_string(scheme));
+            expectSharedCoefficients(context(mapping), scheme, scheme != SUPPLE_SCHEME_CATMULL_CLARK);
+        }
+    }
+    CrowdContext shared(*testDevice(), SUPPLE_MAPPING_WIDE, 2, SUPPLE_CONTEXT_SHARED_DISPATCHES);
+    expectSharedCoefficients(shared, SUPPLE_SCHEME_PM, true);
+}
+
+TEST_F(Followers, AnyNumberOfThemDrawsTheSame) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.asset(kFollowed);
+    TestView left(own, 300000, SUPPLE_VIEW_CULL, 0, 0), right(own, 300000, SUPPLE_VIEW_CULL, 0, 0);
+    lookFromTwoSides(left, right);
+    Crowd leader(own, followedDesc(asset, left.handle()));
+    std::vector<SuppleInstance> instances;
+    moveFollowed(leader, instances, 0);
+    std::vector<std::unique_ptr<TestView>> views;
+    std::vector<std::unique_ptr<Crowd>> mirrors;
+    std::vector<SuppleGroup> groups = {leader.group()};
+    constexpr uint32_t kSharing = 7; // places
+    const auto add = [&] {
+        auto& view = views.emplace_back(std::make_unique<TestView>(own, 300000, SUPPLE_VIEW_CULL, 0, 0));
+        lookFromTwoSides(left, *view);
+        mirrors.push_back(std::make_unique<Crowd>(own, followerDesc(leader, asset, SUPPLE_SCHEME_PM, view->handle())));
+        groups.push_back(mirrors.back()->group());
+        EXPECT_EQ(coefficientsOf(*mirrors.back()) == 0, mirrors.size() <= kSharing);
+    };
+    while (mirrors.size() < kSharing + 2) {
+        add();
+    }
+    own.run(groups);
+    const DrawnPatches expected = drawnPatches(*mirrors.back());
+    EXPECT_FALSE(expected.empty());
+    for (const std::unique_ptr<Crowd>& mirror : mirrors) {
+        EXPECT_TRUE(drawnPatches(*mirror) == expected);
+    }
+    // Who goes leaves a place.
+    const SuppleGroup gone = mirrors[2]->group();
+    std::erase_if(groups, [&](SuppleGroup group) { return group.id == gone.id; });
+    mirrors.erase(mirrors.begin() + 2);
+    for (uint32_t frame = 0; frame < 3; ++frame) {
+        own.run(groups);
+    }
+    mirrors.erase(mirrors.end() - 1);
+    groups.pop_back();
+    mirrors.erase(mirrors.end() - 1);
+    groups.pop_back();
+    add();
+    own.run(groups);
+    EXPECT_TRUE(drawnPatches(*mirrors.back()) == expected);
+    EXPECT_TRUE(drawnPatches(*mirrors.front()) == expected);
 }
 
 } // namespace

@@ -1072,14 +1072,27 @@ typedef struct SuppleGroupDesc {
      * followed group alone, and both use their slots. A frame that records the group must record the followed group
      * too, in the same suppleRecord or an earlier one. A group that follows another cannot be followed. Once the
      * followed group is destroyed, this group can only be destroyed.
-     * What belongs to the instances is asked of the followed group alone: priorities (so it needs a view if they are to
-     * count), the boxes of suppleReadInstanceBounds, the memory of poses and cages, and the acquire barriers of poses,
-     * cages and user data. */
+     * Where both have the same surfaces at levels, each in its view, this group reads the coefficients that the
+     * followed one makes (docs/lod.md). Then a frame that leaves this group out leaves its instances without motion in
+     * the next. What belongs to the instances is asked of the followed group alone: priorities (so it needs a view if
+     * they are to count), the boxes of suppleReadInstanceBounds, the memory of poses and cages, and the acquire
+     * barriers of poses, cages and user data. */
     SuppleGroup instancesOf;
     /** It holds for both UV sets. POLYGONS has LINEAR_ALL alone. BLEND has all modes but
      * LINEAR_BOUNDARIES. If `scheme` names one of them with another mode, suppleCreateGroup fails. */
     SuppleUvInterpolation uvInterpolation;
     const SuppleFragmentsOptions* fragments; /**< null: the defaults; other schemes ignore it */
+    /** 0: the group keeps its memory as long as it lives. Else it gives back the memory of its surfaces (vertices, what
+     * they have beside, coefficients, scratch) once it has been recorded so many times in a row without an instance to
+     * draw: all are hidden or, with SUPPLE_VIEW_CULL, surely out of sight (SuppleViewStatistics.unposedInstanceCount).
+     * suppleBeginFrame looks whether there is one again, by the cameras, poses and visibilities that are set then, and
+     * takes the memory before the frame. An instance that only comes into sight later in that frame is drawn from the
+     * next frame on, as one that was hidden until then: it has no motion in its first frame. If there is no memory, the
+     * log says so (SUPPLE_MESSAGE_DEVICE_MEMORY), nothing of the group is drawn, and each suppleBeginFrame tries again.
+     * Whenever memory goes or comes, suppleBeginFrame raises SuppleGroupInfo.surfaceVersion: ask for the outputs of
+     * grids and meshes anew. They have null buffers meanwhile. The buffers of a view stay. Instances, poses, cages and
+     * points stay too. A group whose instances another group draws (instancesOf) keeps its memory. */
+    uint64_t keepUnseenFrames;
 } SuppleGroupDesc;
 
 /** Creates a group without instances. Compiles the pipelines that no earlier group of the context has needed, which may
@@ -1420,6 +1433,9 @@ typedef struct SuppleGroupInfo {
     uint32_t windowCount;
     uint32_t windowSize;     /**< slots per window; the last one may have fewer */
     SuppleSkinning skinning; /**< how Supple skins its cages, if it does: never FROM_FILE */
+    /** 1: the group has given back the memory of its surfaces (SuppleGroupDesc.keepUnseenFrames), else 0. */
+    uint32_t surfacesGivenBack;
+    uint64_t surfaceVersion; /**< rises when suppleBeginFrame gives that memory back or takes it again */
 } SuppleGroupInfo;
 
 /** Fills out. */
@@ -1702,6 +1718,9 @@ typedef struct SuppleMemoryUse {
     VkDeviceSize readback;     /**< what comes back: statistics of views, boxes, timings on CPU devices */
     VkDeviceSize spare;        /**< of the context alone: in blocks, and free for what comes; never mapped */
     VkDeviceSize spareVisible; /**< the same of what is mapped */
+    /** Of a group alone: what it has given back and takes again (SuppleGroupDesc.keepUnseenFrames). It counts nowhere
+     * else. */
+    VkDeviceSize givenBack;
 } SuppleMemoryUse;
 
 /** Fills out: all that the context has allocated and not yet freed. That is its assets, groups and views, the context's

@@ -71,13 +71,18 @@ typedef struct SuppleViewDesc {
      * theirs in it, and no others. Those that find no room are missing, as those that find no room for vertices, and
      * droppedInstanceCount counts them: of instances that are equally large to a 64th octave of pixels, all or none.
      * suppleCreateGroup fails if an instance has more than that. A group that a frame of its view leaves out has no
-     * motion in the next one. 0: each group has memory for the coefficients of as many instances as its capacity. */
+     * motion in the next one. 0: each group has memory for the coefficients of as many instances as its capacity, or
+     * memoryBytes decides. */
     uint64_t coefficientBytes;
+    /** 0, or the bytes of device memory that the view's buffers have together: vertices with all that flags ask for,
+     * lists and coefficients, but not what the device's alignment adds. Vertices and lists take what maxVertices and
+     * maxRuns need. If coefficientBytes is 0, coefficients get what remains, as much of it as the device can bind. */
+    uint64_t memoryBytes;
 } SuppleViewDesc;
 
 /** Creates a view without groups. Errors: unknown flags, or flags without the one that they go with; maxVertices below
- * 1024 or more than the device can bind (the log names the most), coefficientBytes below 256 or more than that; an
- * elasticity outside of 0..1; memory. */
+ * 1024 or more than the device can bind (the log names the most), coefficientBytes below 256 or more than that;
+ * memoryBytes below what all of it takes (the log names it); an elasticity outside of 0..1; memory. */
 SUPPLE_API SuppleResult suppleCreateView(SuppleContext context, const SuppleViewDesc* desc, SuppleView* out);
 /** The handle is dead at once. The view's groups keep what they need. They are drawn and culled as before, from the
  * camera that was set last. The depth pyramid is dropped: from the next suppleRecord on it hides nothing. */
