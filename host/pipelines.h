@@ -64,7 +64,7 @@ struct GraphicsDesc {
 struct Write {
     uint32_t binding;
     VkDescriptorType type;
-    std::variant<VkDescriptorBufferInfo, VkDescriptorImageInfo> what;
+    std::variant<VkDescriptorBufferInfo, VkDescriptorImageInfo, VkAccelerationStructureKHR> what;
     uint32_t element = 0; ///< of an array
 };
 
@@ -74,6 +74,7 @@ struct Write {
 [[nodiscard]] Write sampledImage(uint32_t binding, const Image& image, VkSampler sampler,
                                  VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 [[nodiscard]] Write storageImage(uint32_t binding, const Image& image);
+[[nodiscard]] Write accelerationStructure(uint32_t binding, VkAccelerationStructureKHR structure);
 
 /// Sets are allocated once and may be written again while no frame that uses them is in flight.
 class DescriptorPool {
