@@ -57,7 +57,6 @@ VkAccelerationStructureInstanceKHR instanceOf(VkDeviceAddress structure, uint32_
         instance.transform.matrix[i][i] = 1.0f; // vertices have the instance's transform in them
     instance.instanceCustomIndex = customIndex;
     instance.mask = kAllRays;
-    instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FRONT_COUNTERCLOCKWISE_BIT_KHR;
     instance.accelerationStructureReference = structure;
     return instance;
 }
