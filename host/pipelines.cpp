@@ -2,7 +2,7 @@
 
 namespace supple::host {
 
-Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::initializer_list<Binding> bindings) {
+Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::span<const Binding> bindings) {
     std::vector<VkDescriptorSetLayoutBinding> list;
     for (const Binding& binding : bindings)
         list.push_back({.binding = binding.binding,

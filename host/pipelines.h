@@ -16,7 +16,11 @@ struct Binding {
     uint32_t count = 1; ///< of an array
 };
 
-[[nodiscard]] Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::initializer_list<Binding> bindings);
+[[nodiscard]] Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::span<const Binding> bindings);
+[[nodiscard]] inline Result<VkDescriptorSetLayout> createSetLayout(Device& device,
+                                                                   std::initializer_list<Binding> bindings) {
+    return createSetLayout(device, std::span(bindings.begin(), bindings.size()));
+}
 
 /// One push constant range from byte 0, if pushBytes is not 0.
 [[nodiscard]] Result<VkPipelineLayout> createPipelineLayout(Device& device,

@@ -17,25 +17,26 @@ struct AloneCase {
     const char* name;
     SuppleScheme scheme;
     uint32_t flags;
+    SuppleMapping mapping;
     bool quads = false; ///< the scheme takes nothing else
 };
+// The kernels are those of previous positions, which other tests run in both mappings.
 constexpr AloneCase kAloneCases[] = {
-    {"Prep", SUPPLE_SCHEME_PREP, 0, true},
-    {"PrepMesh", SUPPLE_SCHEME_PREP, SUPPLE_GROUP_INDEXED_MESH, true},
-    {"Pm", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION},
-    {"PmMesh", SUPPLE_SCHEME_PM, SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_MOTION},
-    {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_MOTION},
-    {"CatmullClarkMesh", SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_INDEXED_MESH},
-    {"Loop", SUPPLE_SCHEME_LOOP, 0},
-    {"LoopMesh", SUPPLE_SCHEME_LOOP, SUPPLE_GROUP_INDEXED_MESH},
-    {"Blend", SUPPLE_SCHEME_BLEND, SUPPLE_GROUP_MOTION},
-    {"Polygons", SUPPLE_SCHEME_POLYGONS, SUPPLE_GROUP_MOTION},
-    {"Fragments", SUPPLE_SCHEME_FRAGMENTS, SUPPLE_GROUP_MOTION},
+    {"PrepMesh", SUPPLE_SCHEME_PREP, SUPPLE_GROUP_INDEXED_MESH, SUPPLE_MAPPING_WIDE, true},
+    {"Pm", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION, SUPPLE_MAPPING_NARROW},
+    {"PmMesh", SUPPLE_SCHEME_PM, SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_MOTION, SUPPLE_MAPPING_WIDE},
+    {"CatmullClark", SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_MOTION, SUPPLE_MAPPING_WIDE},
+    {"CatmullClarkMesh", SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_INDEXED_MESH, SUPPLE_MAPPING_NARROW},
+    {"Loop", SUPPLE_SCHEME_LOOP, 0, SUPPLE_MAPPING_WIDE},
+    {"Blend", SUPPLE_SCHEME_BLEND, SUPPLE_GROUP_MOTION, SUPPLE_MAPPING_NARROW},
+    {"Polygons", SUPPLE_SCHEME_POLYGONS, SUPPLE_GROUP_MOTION, SUPPLE_MAPPING_WIDE},
+    {"Fragments", SUPPLE_SCHEME_FRAGMENTS, SUPPLE_GROUP_MOTION, SUPPLE_MAPPING_NARROW},
 };
 
-class PositionsAlone : public CrowdContexts, public testing::WithParamInterface<AloneCase> {};
+class PositionsAlone : public CrowdContexts {};
+class PositionsOfSchemes : public PositionsAlone, public testing::WithParamInterface<AloneCase> {};
 
-/// A frame of two instances, the second one in another pose and turned.
+/// Two instances, the second one in another pose and turned.
 void pose(Crowd& crowd, std::span<const SuppleInstance> instances, double time) {
     const glm::mat4 turned =
         glm::rotate(glm::translate(glm::mat4(1.0f), {3.0f, 1.0f, -2.0f}), 0.7f, {0.3f, 1.0f, 0.2f});
@@ -43,68 +44,66 @@ void pose(Crowd& crowd, std::span<const SuppleInstance> instances, double time) 
     crowd.pose(instances[1], 0, time + 0.4, turned);
 }
 
-TEST_P(PositionsAlone, AreThoseOfVerticesToTheBit) {
-    const ValidationGuard guard;
-    const AloneCase& c = GetParam();
-    for (const SuppleMapping mapping : {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE}) {
-        CrowdContext& own = context(mapping);
-        SuppleGroupDesc desc{};
-        desc.asset = own.asset(c.quads ? kPipQuads : kPip);
-        desc.capacity = 2;
-        desc.scheme = c.scheme;
-        desc.rate = 4;
-        desc.flags = c.flags;
-        Crowd vertices(own, desc);
-        desc.vertexFormat = SUPPLE_VERTEX_12;
-        Crowd alone(own, desc);
-        ASSERT_TRUE(vertices.valid() && alone.valid());
-        const SuppleInstance ofVertices[] = {vertices.spawn(), vertices.spawn()};
-        const SuppleInstance ofAlone[] = {alone.spawn(), alone.spawn()};
-        for (const double time : {0.1, 0.5}) { // the second frame has a past
-            pose(vertices, ofVertices, time);
-            pose(alone, ofAlone, time);
-            vertices.run();
-            alone.run();
-            EXPECT_EQ(alone.output().streams.vertices.stride, 12u);
-            EXPECT_EQ(alone.output().streams.vertexFormat, SUPPLE_VERTEX_12);
-            for (uint32_t slot = 0; slot < 2; ++slot) {
-                const PositionBits bits = alone.positions(slot);
-                EXPECT_EQ(differences(bits, vertices.positions(slot)), 0u);
-                EXPECT_TRUE(std::ranges::all_of(asPositions(bits), [](const glm::vec3& p) {
-                    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-                })) << "a vertex that is not finite would lose the hits of others";
-                if ((c.flags & SUPPLE_GROUP_MOTION) != 0) {
-                    EXPECT_EQ(differences(alone.previous(slot), vertices.previous(slot)), 0u);
-                }
-            }
+void expectSame(const Crowd& alone, const Crowd& vertices, bool motion) {
+    EXPECT_EQ(alone.output().streams.vertices.stride, 12u);
+    EXPECT_EQ(alone.output().streams.vertexFormat, SUPPLE_VERTEX_12);
+    for (uint32_t slot = 0; slot < 2; ++slot) {
+        const PositionBits bits = alone.positions(slot);
+        EXPECT_EQ(differences(bits, vertices.positions(slot)), 0u);
+        EXPECT_TRUE(std::ranges::all_of(asPositions(bits), [](const glm::vec3& p) {
+            return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+        })) << "a vertex that is not finite could lose the hits of others";
+        if (motion) {
+            EXPECT_EQ(differences(alone.previous(slot), vertices.previous(slot)), 0u);
         }
     }
 }
 
-TEST_P(PositionsAlone, TakeOtherRates) {
+TEST_P(PositionsOfSchemes, AreThoseOfVerticesToTheBit) {
+    const ValidationGuard guard;
     const AloneCase& c = GetParam();
-    const bool changes = c.scheme == SUPPLE_SCHEME_PREP || c.scheme == SUPPLE_SCHEME_PM;
-    if (!changes || (c.flags & SUPPLE_GROUP_INDEXED_MESH) != 0) {
-        return; // its rate stays
-    }
-    CrowdContext& own = context(SUPPLE_MAPPING_WIDE);
+    CrowdContext& own = context(c.mapping);
     SuppleGroupDesc desc{};
     desc.asset = own.asset(c.quads ? kPipQuads : kPip);
-    desc.capacity = 1;
+    desc.capacity = 2;
     desc.scheme = c.scheme;
+    desc.rate = 4;
+    desc.flags = c.flags;
+    Crowd vertices(own, desc);
+    desc.vertexFormat = SUPPLE_VERTEX_12;
+    Crowd alone(own, desc);
+    ASSERT_TRUE(vertices.valid() && alone.valid());
+    const SuppleInstance ofVertices[] = {vertices.spawn(), vertices.spawn()};
+    const SuppleInstance ofAlone[] = {alone.spawn(), alone.spawn()};
+    for (const double time : {0.1, 0.5}) { // the second frame has a past
+        pose(vertices, ofVertices, time);
+        pose(alone, ofAlone, time);
+        vertices.run();
+        alone.run();
+        expectSame(alone, vertices, (c.flags & SUPPLE_GROUP_MOTION) != 0);
+    }
+}
+
+TEST_F(PositionsAlone, TakeAnotherRate) {
+    CrowdContext& own = context(SUPPLE_MAPPING_WIDE);
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kPip);
+    desc.capacity = 2;
+    desc.scheme = SUPPLE_SCHEME_PM;
     desc.rate = 4;
     Crowd vertices(own, desc);
     desc.vertexFormat = SUPPLE_VERTEX_12;
     Crowd alone(own, desc);
     for (Crowd* crowd : {&vertices, &alone}) {
-        crowd->pose(crowd->spawn(), 0, 0.3, glm::mat4(1.0f));
+        const SuppleInstance instances[] = {crowd->spawn(), crowd->spawn()};
+        pose(*crowd, instances, 0.3);
         crowd->setRate(3);
         crowd->run();
     }
-    EXPECT_EQ(differences(alone.positions(0), vertices.positions(0)), 0u);
+    expectSame(alone, vertices, false);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, PositionsAlone, testing::ValuesIn(kAloneCases),
+INSTANTIATE_TEST_SUITE_P(Alone, PositionsOfSchemes, testing::ValuesIn(kAloneCases),
                          [](const auto& info) { return info.param.name; });
 
 class RayRefusals : public CrowdContexts {
