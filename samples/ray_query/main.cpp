@@ -15,6 +15,7 @@
 #include <supple/supple.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
@@ -27,7 +28,7 @@ using namespace supple::host;
 using namespace ray_query;
 
 struct Options : PictureOptions {
-    std::string character = SUPPLE_SAMPLE_ASSETS "/wren.glb";
+    std::string character = SUPPLE_SAMPLE_ASSETS "/pip.glb";
     uint32_t samples = 16;
 };
 
@@ -87,7 +88,7 @@ public:
         for (uint32_t i = 0; i < kCharacters; ++i) {
             const float aside = static_cast<float>(i) - 0.5f * (kCharacters - 1);
             glm::mat4 place =
-                glm::translate(glm::mat4(1.0f), {0.62f * width * aside, 0.0f, -0.25f * width * std::abs(aside)});
+                glm::translate(glm::mat4(1.0f), {0.8f * width * aside, 0.0f, -0.25f * width * std::abs(aside)});
             place = glm::rotate(place, -0.45f * aside, {0.0f, 1.0f, 0.0f});
             const uint32_t clip = info_.clipCount > 0 ? i % info_.clipCount : SUPPLE_BIND_POSE;
             must(suppleSetClipPose(context_.handle(), instances_[i], clip, seconds), "suppleSetClipPose");
