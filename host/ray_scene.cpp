@@ -2,7 +2,6 @@
 #include "host/vk_struct.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace supple::host {
@@ -313,19 +312,18 @@ void RayScene::record(VkCommandBuffer commands, std::span<const Part> parts) {
     // Earlier frames trace and build what this one writes, with the same scratch memory.
     memoryBarrier(commands, {kBuild | tracedBy_, kWrite}, {kBuild, kRead | kWrite});
     auto* listed = static_cast<VkAccelerationStructureInstanceKHR*>(instances_.mapped()) + size_t{frame_} * capacity_;
-    instanceCount_ = 0;
+    uint32_t count = 0;
     for (const Part& part : parts) {
         part.group->record(commands, part.instances);
         const auto own = part.group->instances();
-        const size_t count = std::min<size_t>(own.size(), capacity_ - instanceCount_);
-        if (count > 0)
-            std::memcpy(listed + instanceCount_, own.data(), count * sizeof(own[0]));
-        instanceCount_ += static_cast<uint32_t>(count);
+        const auto room = std::min(static_cast<uint32_t>(own.size()), capacity_ - count);
+        std::copy_n(own.begin(), room, listed + count);
+        count += room;
     }
     memoryBarrier(commands, {kBuild, kWrite}, {kBuild, kRead | kWrite});
     VkAccelerationStructureGeometryKHR geometry{};
     const VkAccelerationStructureBuildGeometryInfoKHR info = buildInfo(geometry);
-    const VkAccelerationStructureBuildRangeInfoKHR range{instanceCount_, 0, 0, 0};
+    const VkAccelerationStructureBuildRangeInfoKHR range{count, 0, 0, 0};
     const VkAccelerationStructureBuildRangeInfoKHR* ranges = &range;
     functions_.build(commands, 1, &info, &ranges);
     memoryBarrier(commands, {kBuild, kWrite}, {tracedBy_, kRead});

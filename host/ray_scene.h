@@ -2,13 +2,13 @@
 // and one over all of them. Copy these two files and ray_plan into an engine, or read them as an example
 // (docs/ray_tracing.md).
 //
-// All memory is allocated when a group is added: recording allocates nothing on the device.
+// All memory is allocated when a group is added: recording allocates nothing on the device. Like all that frames use,
+// what is made here may go only when no frame that uses it is pending.
 #pragma once
 
 #include "host/context.h"
 #include "host/ray_plan.h"
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -68,9 +68,6 @@ public:
     /// Of the last record(): what a structure over all has of the group.
     [[nodiscard]] std::span<const VkAccelerationStructureInstanceKHR> instances() const { return instances_; }
     [[nodiscard]] const RayPlan& plan() const { return plan_; }
-    [[nodiscard]] uint32_t capacity() const { return static_cast<uint32_t>(structures_.size()); }
-    /// Device memory of structures and scratch.
-    [[nodiscard]] VkDeviceSize bytes() const { return storage_.size() + scratch_.size(); }
 
 private:
     RayGroup(const Device& device, uint32_t capacity, const RayPlanOptions& options)
@@ -123,8 +120,6 @@ public:
     /// `tracedBy` that follow wait for this. Instances beyond the capacity are left out.
     void record(VkCommandBuffer commands, std::span<const Part> parts);
     [[nodiscard]] VkAccelerationStructureKHR handle() const { return structure_.handle(); }
-    /// Of the last record().
-    [[nodiscard]] uint32_t instanceCount() const { return instanceCount_; }
 
 private:
     explicit RayScene(const Device& device) : functions_(device.handle()) {}
@@ -133,7 +128,7 @@ private:
 
     RayFunctions functions_;
     VkPipelineStageFlags2 tracedBy_ = 0;
-    uint32_t capacity_ = 0, framesInFlight_ = 1, frame_ = 0, instanceCount_ = 0;
+    uint32_t capacity_ = 0, framesInFlight_ = 1, frame_ = 0;
     Buffer instances_; ///< mapped: a run a frame in flight
     Buffer storage_, scratch_;
     VkDeviceAddress scratchAddress_ = 0;

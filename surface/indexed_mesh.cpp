@@ -109,8 +109,17 @@ IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation) {
     return mesh;
 }
 
+uint64_t gridMeshIndices(const Tables& tables, const Evaluation& evaluation) {
+    uint64_t count = 0;
+    for (const DrawRange& draw : tables.drawRanges) {
+        count += gridIndices(draw.domain, evaluation.rate).size() * uint64_t{draw.patchCount};
+    }
+    return count;
+}
+
 IndexedMesh gridMesh(const Tables& tables, const Evaluation& evaluation) {
     IndexedMesh mesh;
+    mesh.indices.reserve(gridMeshIndices(tables, evaluation));
     uint32_t firstVertex = 0;
     for (const DrawRange& draw : tables.drawRanges) {
         const std::vector<uint16_t> grid = gridIndices(draw.domain, evaluation.rate);

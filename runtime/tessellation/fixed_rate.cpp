@@ -55,6 +55,10 @@ Status FixedRate::begin() {
     }
     indexData_ = grids_.takeIndices();
     if (isTraced()) {
+        status = checkRayIndices(surface::gridMeshIndices(tables(), evaluation_));
+        if (!status) {
+            return status;
+        }
         surface::IndexedMesh whole = surface::gridMesh(tables(), evaluation_);
         setRayRanges(whole);
         wholeIndexData_ = IndexBytes(std::move(whole.indices));

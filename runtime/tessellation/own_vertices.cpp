@@ -62,8 +62,21 @@ Result<IndexBytes> OwnVertices::layOutMesh(const surface::Evaluation& evaluation
         draws_.push_back(
             {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertices, 0, from.firstIndex, from.indexCount, from.part});
     }
+    if (const Status fits = checkRayIndices(mesh.indices.size()); !fits) {
+        return fits.error();
+    }
     setRayRanges(mesh);
     return IndexBytes(std::move(mesh.indices));
+}
+
+Status OwnVertices::checkRayIndices(uint64_t count) const {
+    constexpr uint64_t kMost = UINT32_MAX / sizeof(uint32_t);
+    if (isTraced() && count > kMost) {
+        return Error{ErrorCode::limit, desc_.asset->character.name + ": " + std::to_string(count / 3) +
+                                           " triangles to trace; acceleration structures find at most " +
+                                           std::to_string(kMost / 3)};
+    }
+    return success();
 }
 
 void OwnVertices::setRayRanges(const surface::IndexedMesh& mesh) {
@@ -85,7 +98,7 @@ Status OwnVertices::createIndices(IndexBytes indices, IndexBytes whole) {
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
                                      (isTraced() ? gpu::kBuildInputUsage : 0);
     std::vector<gpu::StaticRequest> requests{{"supple grid indices", usage, indices.bytes, std::move(indices.keeper)}};
-    if (!whole.bytes.empty()) {
+    if (isTraced() && wholeList() != 0) {
         requests.push_back({"supple ray indices", usage, whole.bytes, std::move(whole.keeper)});
     }
     Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(*desc_.device, requests);

@@ -52,6 +52,8 @@ protected:
     [[nodiscard]] Result<IndexBytes> layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices);
     /// Takes the bytes, unless the surface before has the same. `whole`: of a whole instance (SharedIndices::buffers).
     [[nodiscard]] Status createIndices(IndexBytes indices, IndexBytes whole);
+    /// If isTraced(): builds find a range by a byte of 32 bits.
+    [[nodiscard]] Status checkRayIndices(uint64_t count) const;
     void setRayRanges(const surface::IndexedMesh& mesh);
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
     /// Attributes are the same for all instances: a window of one.
