@@ -1,5 +1,7 @@
 #include "gpu/device.h"
 
+#include "gpu/ray_tracing.h"
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -238,6 +240,18 @@ bool hasIndirectFirstInstance(const Functions& vk, VkPhysicalDevice physicalDevi
 
 namespace {
 
+Status checkRayTracing(const DeviceDesc& desc) {
+    const std::string missing = missingForRayTracing(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr);
+    if (!missing.empty()) {
+        return Error{ErrorCode::unsupported, "ray tracing: the device lacks the " + missing};
+    }
+    const std::string disabled = desc.enabledFeatures != nullptr ? disabledForRayTracing(desc.enabledFeatures) : "";
+    if (!disabled.empty()) {
+        return Error{ErrorCode::disabled, "ray tracing: the device was created without the feature " + disabled};
+    }
+    return success();
+}
+
 /// Whether the host's instance and device have what is needed.
 Status checkFit(const DeviceDesc& desc) {
     const std::string tooOld = missingInInstance(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr, 0);
@@ -252,7 +266,7 @@ Status checkFit(const DeviceDesc& desc) {
     if (!disabled.empty()) {
         return Error{ErrorCode::disabled, "the device was created without the feature " + disabled};
     }
-    return success();
+    return desc.rayTracing ? checkRayTracing(desc) : success();
 }
 
 } // namespace
@@ -269,6 +283,7 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.memorySource = desc.memorySource;
     d.memoryBlockSize = desc.memoryBlockSize;
     d.debugUtils = desc.debugUtils;
+    d.rayTracing = desc.rayTracing;
     d.vk.loadInstance(desc.instance, desc.getInstanceProcAddr);
     if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils)) {
         const std::string text = std::string("the device gives no ") + name;

@@ -38,6 +38,7 @@ struct DeviceDesc {
     MappingChoice mapping = MappingChoice::automatic;
     bool shareDispatches = false; ///< in the wide mapping
     bool fanRecords = false;      ///< Mapping::fanRecords
+    bool rayTracing = false;      ///< hosts build acceleration structures from buffers
 };
 
 class Uploads;
@@ -64,6 +65,10 @@ struct Device {
     uint32_t timestampValidBits = 0;
     /// Indirect commands may name a first instance. True too if the host has not told what it enabled.
     bool drawIndirectFirstInstance = true;
+    bool rayTracing = false; ///< buffers may have gpu::kBuildInputUsage (gpu/ray_tracing.h)
+
+    /// Whether buffers may have addresses: all memory is then allocated for them.
+    [[nodiscard]] bool givesAddresses() const { return rayTracing || mapping.sharesDispatches; }
 
     [[nodiscard]] static Result<Device> create(const DeviceDesc& desc);
 

@@ -12,6 +12,7 @@ namespace supple::gpu {
     X(GetPhysicalDeviceMemoryProperties)                                                                               \
     X(GetPhysicalDeviceQueueFamilyProperties)                                                                          \
     X(GetPhysicalDeviceFormatProperties)                                                                               \
+    X(EnumerateDeviceExtensionProperties)                                                                              \
     X(GetDeviceProcAddr)
 
 #define SUPPLE_DEVICE_FUNCTIONS(X)                                                                                     \

@@ -54,7 +54,7 @@ Result<HostMemory> allocateHostMemory(const Device& device, const VkMemoryRequir
     info.memoryTypeIndex = type;
     VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
-    info.pNext = device.mapping.sharesDispatches ? &flags : nullptr;
+    info.pNext = device.givesAddresses() ? &flags : nullptr;
     VkResult result = device.vk.AllocateMemory(device.handle, &info, device.allocator, &memory.memory);
     if (result != VK_SUCCESS) {
         return vulkanError(result, what);

@@ -37,6 +37,8 @@ SuppleContextDesc contextDesc(const Device& device) {
     desc.structSize = sizeof desc;
     if (device.hasDebugUtils())
         desc.flags |= SUPPLE_CONTEXT_DEBUG_UTILS;
+    if (device.tracesRays())
+        desc.flags |= SUPPLE_CONTEXT_RAY_TRACING;
     desc.instance = device.instance();
     desc.physicalDevice = device.physicalDevice();
     desc.device = device.handle();

@@ -102,11 +102,28 @@ std::vector<VkExtensionProperties> deviceExtensions(VkPhysicalDevice physicalDev
     return extensions;
 }
 
-/// Why this device will not do, or empty.
-std::string shortcoming(VkInstance instance, VkPhysicalDevice physicalDevice, bool window) {
+SuppleRequirements askedRequirements(const DeviceOptions& options) {
     SuppleRequirements requirements{};
     requirements.structSize = sizeof requirements;
     requirements.instanceVersion = kInstanceVersion;
+    if (options.rayTracing)
+        requirements.contextFlags = SUPPLE_CONTEXT_RAY_TRACING;
+    return requirements;
+}
+
+bool hasRayQueries(VkPhysicalDevice physicalDevice) {
+    if (!hasExtension(deviceExtensions(physicalDevice), VK_KHR_RAY_QUERY_EXTENSION_NAME))
+        return false;
+    auto rayQuery =
+        vkStruct<VkPhysicalDeviceRayQueryFeaturesKHR>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR);
+    auto features = vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &rayQuery);
+    vkGetPhysicalDeviceFeatures2(physicalDevice, &features);
+    return rayQuery.rayQuery == VK_TRUE;
+}
+
+/// Why this device will not do, or empty.
+std::string shortcoming(VkInstance instance, VkPhysicalDevice physicalDevice, const DeviceOptions& options) {
+    SuppleRequirements requirements = askedRequirements(options);
     if (suppleQueryRequirements(instance, physicalDevice, vkGetInstanceProcAddr, &requirements) != SUPPLE_OK)
         return requirements.reason[0] != 0 ? requirements.reason : "does not meet Supple's requirements";
     auto features13 = vkStruct<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
@@ -119,7 +136,9 @@ std::string shortcoming(VkInstance instance, VkPhysicalDevice physicalDevice, bo
     uint32_t family = 0;
     if (!findQueueFamily(physicalDevice, family))
         return "no queue that does graphics and compute";
-    if (window && !hasExtension(deviceExtensions(physicalDevice), VK_KHR_SWAPCHAIN_EXTENSION_NAME))
+    if (options.rayTracing && !hasRayQueries(physicalDevice))
+        return "missing extension VK_KHR_ray_query";
+    if (options.window && !hasExtension(deviceExtensions(physicalDevice), VK_KHR_SWAPCHAIN_EXTENSION_NAME))
         return "missing extension VK_KHR_swapchain";
     return {};
 }
@@ -337,7 +356,7 @@ Status Device::choosePhysicalDevice(const DeviceOptions& options) {
         const bool matches = byIndex ? i == index : lowerCase(properties.deviceName).find(wanted) != std::string::npos;
         if (!matches)
             continue;
-        if (const std::string reason = shortcoming(instance_, devices[i], options.window); !reason.empty()) {
+        if (const std::string reason = shortcoming(instance_, devices[i], options); !reason.empty()) {
             if (firstShortcoming.empty())
                 firstShortcoming = std::string("device ") + properties.deviceName + " will not do: " + reason;
             continue;
@@ -355,7 +374,7 @@ Status Device::choosePhysicalDevice(const DeviceOptions& options) {
     return Error{ErrorCode::unsupported, "device " + options.device + " not found (have: " + have + ")"};
 }
 
-void Device::enableFeatures() {
+void Device::enableFeatures(const DeviceOptions& options) {
     SupportedFeatures all;
     readSupportedFeatures(physicalDevice_, all);
     const VkPhysicalDeviceFeatures& supported = all.of10.features;
@@ -372,6 +391,12 @@ void Device::enableFeatures() {
     const bool manyDraws = supported.multiDrawIndirect == VK_TRUE && all.of11.shaderDrawParameters == VK_TRUE;
     features11_.shaderDrawParameters = manyDraws ? VK_TRUE : VK_FALSE;
     requirements_.features13.pNext = &features11_;
+    if (options.rayTracing) {
+        rayQuery_ = vkStruct<VkPhysicalDeviceRayQueryFeaturesKHR>(
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR, &requirements_.accelerationStructure);
+        rayQuery_.rayQuery = VK_TRUE;
+        features11_.pNext = &rayQuery_;
+    }
     features_ =
         vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &requirements_.features12);
     features_.features.samplerAnisotropy = supported.samplerAnisotropy;
@@ -386,18 +411,20 @@ Status Device::createDevice(const DeviceOptions& options) {
         return Error{ErrorCode::unsupported, "no queue that does graphics and compute"};
     vkGetPhysicalDeviceMemoryProperties(physicalDevice_, &memoryProperties_);
 
-    requirements_.structSize = sizeof requirements_;
-    requirements_.instanceVersion = kInstanceVersion;
+    requirements_ = askedRequirements(options);
     if (suppleQueryRequirements(instance_, physicalDevice_, vkGetInstanceProcAddr, &requirements_) != SUPPLE_OK)
         return Error{ErrorCode::unsupported, requirements_.reason};
-    enableFeatures();
+    enableFeatures(options);
 
     constexpr float kPriority = 1.0f;
     auto queueInfo = vkStruct<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queueInfo.queueFamilyIndex = queueFamily_;
     queueInfo.queueCount = 1;
     queueInfo.pQueuePriorities = &kPriority;
-    std::vector<const char*> extensions;
+    std::vector<const char*> extensions(requirements_.extensions,
+                                        requirements_.extensions + requirements_.extensionCount);
+    if (options.rayTracing)
+        extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
     if (options.window)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     if (readsClocks())

@@ -27,6 +27,9 @@ struct DeviceOptions {
     bool validation = false;
     /// Surface and swapchain extensions too.
     bool window = false;
+    /// Acceleration structures and ray queries, for SUPPLE_CONTEXT_RAY_TRACING and host/ray_scene.h. A device without
+    /// them will not do.
+    bool rayTracing = false;
     /// What suppleCreateContext is given instead of the loader's: tests count Vulkan calls through a wrapped table.
     PFN_vkGetInstanceProcAddr suppleGetInstanceProcAddr = nullptr;
 };
@@ -57,6 +60,8 @@ public:
     [[nodiscard]] VkDeviceSize size() const { return size_; }
     /// Null for MemoryKind::device.
     [[nodiscard]] void* mapped() const { return mapped_; }
+    /// If it was created with VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
+    [[nodiscard]] VkDeviceAddress address() const;
 
 private:
     friend class Device;
@@ -119,6 +124,7 @@ public:
     [[nodiscard]] std::string name() const { return properties_.deviceName; }
     [[nodiscard]] bool isCpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     [[nodiscard]] bool hasDebugUtils() const { return debugUtils_; }
+    [[nodiscard]] bool tracesRays() const { return rayQuery_.rayQuery == VK_TRUE; }
     [[nodiscard]] bool hasAnisotropy() const { return anisotropy_; }
     /// multiDrawIndirect and shaderDrawParameters: many draws by one call, whose shaders know the number of each.
     [[nodiscard]] bool drawsMany() const { return features_.features.multiDrawIndirect == VK_TRUE; }
@@ -167,12 +173,14 @@ private:
     [[nodiscard]] Status createInstance(const DeviceOptions& options);
     [[nodiscard]] Status createMessenger();
     [[nodiscard]] Status choosePhysicalDevice(const DeviceOptions& options);
-    void enableFeatures(); ///< what Supple asks for, and what the hosts' own drawing wants on top
+    void enableFeatures(
+        const DeviceOptions& options); ///< what Supple asks for, and what the hosts' own drawing wants on top
     [[nodiscard]] Status createDevice(const DeviceOptions& options);
     /// Whether its clock can be read beside the host's.
     [[nodiscard]] bool readsClocks() const;
     [[nodiscard]] Status createCommands();
-    [[nodiscard]] Result<VkDeviceMemory> allocate(const VkMemoryRequirements& requirements, MemoryKind kind);
+    [[nodiscard]] Result<VkDeviceMemory> allocate(const VkMemoryRequirements& requirements, MemoryKind kind,
+                                                  bool addressed = false);
 
     std::shared_ptr<ValidationLog> validation_ = std::make_shared<ValidationLog>();
     PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;
@@ -185,6 +193,7 @@ private:
     VkPhysicalDeviceMemoryProperties memoryProperties_{};
     SuppleRequirements requirements_{}; ///< the features that are enabled
     VkPhysicalDeviceVulkan11Features features11_{};
+    VkPhysicalDeviceRayQueryFeaturesKHR rayQuery_{};
     VkPhysicalDeviceFeatures2 features_{};
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;

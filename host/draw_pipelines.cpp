@@ -13,8 +13,10 @@
 #include <shaders/cage_shadow_trim_vert.h>
 #include <shaders/cage_shadow_vert.h>
 #include <shaders/ground_frag.h>
+#include <shaders/ground_frag_TRACED.h>
 #include <shaders/ground_vert.h>
 #include <shaders/surface_frag.h>
+#include <shaders/surface_frag_TRACED.h>
 #include <shaders/surface_shadow_trim_frag.h>
 #include <shaders/surface_shadow_trim_vert.h>
 #include <shaders/surface_shadow_vert.h>
@@ -54,12 +56,14 @@ Result<std::unique_ptr<DrawPipelines>> DrawPipelines::create(Device& device, con
 Status DrawPipelines::createLayouts() {
     constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
     constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
-    const std::initializer_list<Binding> frame = {
+    std::vector<Binding> frame = {
         {shared::kFrameBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex | kFragment},
         {shared::kShadowBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kVertex | kFragment},
         {shared::kEnvironmentBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
         {shared::kShadowDepthBinding, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, kVertex | kFragment},
     };
+    if (formats_.traced)
+        frame.push_back({shared::kRayBinding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, kFragment});
     const std::initializer_list<Binding> figure = {
         {shared::kSurfaceVertexBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
         {shared::kSurfaceAttributeBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
@@ -164,7 +168,9 @@ Status DrawPipelines::prepare(const Faces& faces) {
     } else {
         desc.name = faces.cage ? "cage face" : "surface";
         desc.vertexShader = faces.cage ? std::span<const uint32_t>(cage_face_vert) : surface_vert;
-        desc.fragmentShader = faces.cage ? std::span<const uint32_t>(cage_face_frag) : surface_frag;
+        desc.fragmentShader = faces.cage        ? std::span<const uint32_t>(cage_face_frag)
+                              : formats_.traced ? std::span<const uint32_t>(surface_frag_TRACED)
+                                                : surface_frag;
         desc.colors = {formats_.color};
         desc.depth = formats_.depth;
         desc.samples = formats_.samples;
@@ -197,9 +203,11 @@ Status DrawPipelines::createPicturePipelines() {
     strip.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
     GraphicsDesc behind = opaque;
     behind.depthWrite = false;
-    for (const Status& status : {make("cage edge", cage_edge_vert, cage_edge_frag, edges, cageEdge),
-                                 make("ground", ground_vert, ground_frag, strip, ground),
-                                 make("backdrop", backdrop_vert, backdrop_frag, behind, backdrop)}) {
+    for (const Status& status :
+         {make("cage edge", cage_edge_vert, cage_edge_frag, edges, cageEdge),
+          make("ground", ground_vert, formats_.traced ? std::span<const uint32_t>(ground_frag_TRACED) : ground_frag,
+               strip, ground),
+          make("backdrop", backdrop_vert, backdrop_frag, behind, backdrop)}) {
         if (!status)
             return status.error();
     }

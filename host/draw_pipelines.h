@@ -16,6 +16,7 @@ struct DrawFormats {
     VkFormat depth = VK_FORMAT_UNDEFINED;
     VkFormat shadow = VK_FORMAT_UNDEFINED;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    bool traced = false; ///< surfaces and floor ask rays what the light sees, instead of shadow maps
 };
 
 class DrawPipelines {

@@ -131,6 +131,7 @@ struct GroupOptions {
     bool levels = false;                   ///< of detail, as the camera of setLevelCamera() chooses them
     bool plays = false;                    ///< on the device, with transitions, instead of pose()
     bool springs = false;                  ///< if it plays: joints swing, vertices jiggle
+    bool traced = false;                   ///< SUPPLE_GROUP_RAY_TRACING; not with levels
 };
 
 /// A draw command of a surface.

@@ -111,6 +111,8 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
         desc.flags = SUPPLE_GROUP_ATTRIBUTES;
         if (options.sharedSamples)
             desc.flags |= SUPPLE_GROUP_INDEXED_MESH;
+        if (options.traced)
+            desc.flags |= SUPPLE_GROUP_RAY_TRACING;
     }
     if (options.plays) {
         desc.poseSource = SUPPLE_POSES_PLAYBACK;

@@ -2,7 +2,7 @@
 
 namespace supple::host {
 
-Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::initializer_list<Binding> bindings) {
+Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::span<const Binding> bindings) {
     std::vector<VkDescriptorSetLayoutBinding> list;
     for (const Binding& binding : bindings)
         list.push_back({.binding = binding.binding,
@@ -241,6 +241,10 @@ Write storageImage(uint32_t binding, const Image& image) {
             VkDescriptorImageInfo{VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL}};
 }
 
+Write accelerationStructure(uint32_t binding, VkAccelerationStructureKHR structure) {
+    return {binding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, structure};
+}
+
 Result<DescriptorPool> DescriptorPool::create(Device& device, uint32_t maxSets) {
     DescriptorPool pool;
     pool.device_ = device.handle();
@@ -248,10 +252,11 @@ Result<DescriptorPool> DescriptorPool::create(Device& device, uint32_t maxSets) 
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * maxSets},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * maxSets},
                                           {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, maxSets},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, maxSets}};
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, maxSets},
+                                          {VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, maxSets}};
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = maxSets,
-                                          .poolSizeCount = 5,
+                                          .poolSizeCount = device.tracesRays() ? 6u : 5u, // the last needs it
                                           .pPoolSizes = sizes};
     if (const VkResult result = vkCreateDescriptorPool(pool.device_, &info, nullptr, &pool.pool_); result != VK_SUCCESS)
         return vulkanError(result, "vkCreateDescriptorPool");
@@ -272,8 +277,16 @@ Result<VkDescriptorSet> DescriptorPool::allocate(VkDescriptorSetLayout layout) {
 
 void DescriptorPool::write(VkDescriptorSet set, std::span<const Write> writes) {
     std::vector<VkWriteDescriptorSet> list;
-    for (const Write& write : writes)
+    std::vector<VkWriteDescriptorSetAccelerationStructureKHR> structures;
+    structures.reserve(writes.size()); // `list` points at them
+    for (const Write& write : writes) {
+        const auto* structure = std::get_if<VkAccelerationStructureKHR>(&write.what);
+        if (structure != nullptr)
+            structures.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR,
+                                  .accelerationStructureCount = 1,
+                                  .pAccelerationStructures = structure});
         list.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                        .pNext = structure != nullptr ? &structures.back() : nullptr,
                         .dstSet = set,
                         .dstBinding = write.binding,
                         .dstArrayElement = write.element,
@@ -281,6 +294,7 @@ void DescriptorPool::write(VkDescriptorSet set, std::span<const Write> writes) {
                         .descriptorType = write.type,
                         .pImageInfo = std::get_if<VkDescriptorImageInfo>(&write.what),
                         .pBufferInfo = std::get_if<VkDescriptorBufferInfo>(&write.what)});
+    }
     vkUpdateDescriptorSets(device_, static_cast<uint32_t>(list.size()), list.data(), 0, nullptr);
 }
 

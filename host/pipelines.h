@@ -16,7 +16,11 @@ struct Binding {
     uint32_t count = 1; ///< of an array
 };
 
-[[nodiscard]] Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::initializer_list<Binding> bindings);
+[[nodiscard]] Result<VkDescriptorSetLayout> createSetLayout(Device& device, std::span<const Binding> bindings);
+[[nodiscard]] inline Result<VkDescriptorSetLayout> createSetLayout(Device& device,
+                                                                   std::initializer_list<Binding> bindings) {
+    return createSetLayout(device, std::span(bindings.begin(), bindings.size()));
+}
 
 /// One push constant range from byte 0, if pushBytes is not 0.
 [[nodiscard]] Result<VkPipelineLayout> createPipelineLayout(Device& device,
@@ -64,7 +68,7 @@ struct GraphicsDesc {
 struct Write {
     uint32_t binding;
     VkDescriptorType type;
-    std::variant<VkDescriptorBufferInfo, VkDescriptorImageInfo> what;
+    std::variant<VkDescriptorBufferInfo, VkDescriptorImageInfo, VkAccelerationStructureKHR> what;
     uint32_t element = 0; ///< of an array
 };
 
@@ -74,6 +78,7 @@ struct Write {
 [[nodiscard]] Write sampledImage(uint32_t binding, const Image& image, VkSampler sampler,
                                  VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 [[nodiscard]] Write storageImage(uint32_t binding, const Image& image);
+[[nodiscard]] Write accelerationStructure(uint32_t binding, VkAccelerationStructureKHR structure);
 
 /// Sets are allocated once and may be written again while no frame that uses them is in flight.
 class DescriptorPool {

@@ -31,6 +31,12 @@ void Buffer::reset() {
     mapped_ = nullptr;
 }
 
+VkDeviceAddress Buffer::address() const {
+    auto info = vkStruct<VkBufferDeviceAddressInfo>(VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO);
+    info.buffer = buffer_;
+    return vkGetBufferDeviceAddress(device_, &info);
+}
+
 Image& Image::operator=(Image&& other) noexcept {
     if (this != &other) {
         reset();
@@ -55,7 +61,7 @@ void Image::reset() {
     view_ = VK_NULL_HANDLE;
 }
 
-Result<VkDeviceMemory> Device::allocate(const VkMemoryRequirements& requirements, MemoryKind kind) {
+Result<VkDeviceMemory> Device::allocate(const VkMemoryRequirements& requirements, MemoryKind kind, bool addressed) {
     constexpr VkMemoryPropertyFlags kMapped =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     VkMemoryPropertyFlags needed = 0;
@@ -80,6 +86,9 @@ Result<VkDeviceMemory> Device::allocate(const VkMemoryRequirements& requirements
             auto info = vkStruct<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
             info.allocationSize = requirements.size;
             info.memoryTypeIndex = i;
+            auto addresses = vkStruct<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
+            addresses.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+            info.pNext = addressed ? &addresses : nullptr;
             VkDeviceMemory memory = VK_NULL_HANDLE;
             if (const VkResult result = vkAllocateMemory(device_, &info, nullptr, &memory); result != VK_SUCCESS)
                 return vulkanError(result, "allocating " + std::to_string(requirements.size) + " bytes");
@@ -100,7 +109,8 @@ Result<Buffer> Device::createBuffer(VkDeviceSize size, VkBufferUsageFlags usage,
         return vulkanError(result, "vkCreateBuffer");
     VkMemoryRequirements requirements{};
     vkGetBufferMemoryRequirements(device_, buffer.buffer_, &requirements);
-    Result<VkDeviceMemory> memory = allocate(requirements, kind);
+    const bool addressed = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
+    Result<VkDeviceMemory> memory = allocate(requirements, kind, addressed);
     if (!memory)
         return memory.error();
     buffer.memory_ = *memory;

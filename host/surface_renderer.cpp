@@ -232,8 +232,9 @@ FigureBinding::~FigureBinding() {
 Result<std::unique_ptr<SurfaceRenderer>> SurfaceRenderer::create(Device& device, const RendererOptions& options) {
     std::unique_ptr<SurfaceRenderer> renderer(new SurfaceRenderer(device));
     renderer->quality_ = options.quality;
-    Result<std::unique_ptr<DrawPipelines>> pipelines =
-        DrawPipelines::create(device, {options.colorFormat, kDepthFormat, kShadowFormat, renderer->samples()});
+    renderer->rays_ = options.rays;
+    Result<std::unique_ptr<DrawPipelines>> pipelines = DrawPipelines::create(
+        device, {options.colorFormat, kDepthFormat, kShadowFormat, renderer->samples(), options.rays != nullptr});
     if (!pipelines)
         return pipelines.error();
     renderer->pipelines_ = std::move(*pipelines);
@@ -293,10 +294,11 @@ Status SurfaceRenderer::createEnvironment() {
 Status SurfaceRenderer::createSlots(uint32_t count) {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2 * count},
-                                          {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count}};
+                                          {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count},
+                                          {VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, count}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     poolInfo.maxSets = count;
-    poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
+    poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes)) - (rays_ != nullptr ? 0 : 1);
     poolInfo.pPoolSizes = sizes;
     if (const VkResult result = vkCreateDescriptorPool(device_.handle(), &poolInfo, nullptr, &pool_);
         result != VK_SUCCESS)
@@ -329,9 +331,23 @@ Status SurfaceRenderer::createSlots(uint32_t count) {
         writes[1].pImageInfo = writes[3].pImageInfo = &shadows;
         writes[2].pImageInfo = &environment;
         vkUpdateDescriptorSets(device_.handle(), static_cast<uint32_t>(std::size(writes)), writes, 0, nullptr);
+        if (rays_ != nullptr)
+            writeRays(slot.set);
         slots_.push_back(std::move(slot));
     }
     return success();
+}
+
+void SurfaceRenderer::writeRays(VkDescriptorSet set) const {
+    const VkAccelerationStructureKHR structure = rays_->handle();
+    auto rays = vkStruct<VkWriteDescriptorSetAccelerationStructureKHR>(
+        VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR);
+    rays.accelerationStructureCount = 1;
+    rays.pAccelerationStructures = &structure;
+    VkWriteDescriptorSet write =
+        descriptorWrite(set, shared::kRayBinding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
+    write.pNext = &rays;
+    vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
 }
 
 Result<FigureBinding> SurfaceRenderer::bind(const FigureGroup& group) {
@@ -472,7 +488,8 @@ DrawPipelines::Faces SurfaceRenderer::facesOf(const Scene& scene, const DrawRun&
     return {.cage = scene.cageFaces,
             .material = flagsOf(scene, run.material),
             .view = scene.view,
-            .vertexLit = !scene.cageFaces && !isFlat && device_.isCpu() && edgeRate >= kVertexLitRate,
+            .vertexLit =
+                !scene.cageFaces && !isFlat && device_.isCpu() && rays_ == nullptr && edgeRate >= kVertexLitRate,
             .maps = isFlat || (scene.view == shared::kViewShaded && hasMaps),
             .blend = blend};
 }
@@ -613,7 +630,7 @@ void SurfaceRenderer::recordShadows(VkCommandBuffer commands, const Scene& scene
         vkCmdBeginRendering(commands, &info);
         const auto side = static_cast<float>(quality_.shadowSize);
         beginDrawing(commands, {0.0f, 0.0f, side, side, 0.0f, 1.0f}, info.renderArea);
-        if (scene.group != nullptr)
+        if (scene.group != nullptr && (rays_ == nullptr || scene.cageFaces))
             drawShadow(commands, scene, light);
         vkCmdEndRendering(commands);
     }

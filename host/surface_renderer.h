@@ -5,6 +5,7 @@
 #include "host/draw_pipelines.h"
 #include "host/draw_target.h"
 #include "host/figure.h"
+#include "host/ray_scene.h"
 #include "host/studio.h"
 
 #include <memory>
@@ -22,6 +23,9 @@ struct RendererOptions {
     VkFormat colorFormat = kPictureFormat;
     StudioQuality quality;
     uint32_t framesInFlight = 1; ///< pictures that may be pending at once
+    /// What the light sees, as rays find it: soft shadows, corners that are dark. Null: as shadow maps have it. The
+    /// scene must hold what is drawn, and outlive the renderer; the cage is lit by shadow maps all the same.
+    const RayScene* rays = nullptr;
 };
 
 /// The descriptor sets of one group and its figure's materials. Like the group it may go only when no pending frame
@@ -95,6 +99,7 @@ private:
     [[nodiscard]] Status createShadowMaps();
     [[nodiscard]] Status createEnvironment();
     [[nodiscard]] Status createSlots(uint32_t count);
+    void writeRays(VkDescriptorSet set) const;
     [[nodiscard]] Status allocateSets(FigureBinding& binding, const FigureGroup& group) const;
     void writeFigureSet(VkDescriptorSet set, const FigureGroup& group, const FigureSurface& surface) const;
     [[nodiscard]] Status writeMaterialSets(FigureBinding& binding, const Figure& figure) const;
@@ -145,6 +150,7 @@ private:
 
     Device& device_;
     StudioQuality quality_;
+    const RayScene* rays_ = nullptr;
     std::unique_ptr<DrawPipelines> pipelines_;
     Image shadowMaps_;
     std::vector<VkImageView> shadowLayers_;

@@ -54,6 +54,7 @@ gpu::DeviceDesc deviceDescOf(const SuppleContextDesc& desc) {
     device.memoryBlockSize = desc.memoryBlockSize;
     device.shareDispatches = (desc.flags & SUPPLE_CONTEXT_SHARED_DISPATCHES) != 0;
     device.fanRecords = (desc.flags & SUPPLE_CONTEXT_FAN_RECORDS) != 0;
+    device.rayTracing = (desc.flags & SUPPLE_CONTEXT_RAY_TRACING) != 0;
     device.debugUtils = (desc.flags & SUPPLE_CONTEXT_DEBUG_UTILS) != 0;
     device.mapping = desc.mapping == SUPPLE_MAPPING_NARROW ? gpu::MappingChoice::narrow
                      : desc.mapping == SUPPLE_MAPPING_WIDE ? gpu::MappingChoice::wide
@@ -294,6 +295,11 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     const std::shared_ptr<Asset> asset = assets.find(desc.asset.id);
     if (asset == nullptr) {
         return Error{ErrorCode::staleHandle, "suppleCreateGroup: stale or foreign asset handle"};
+    }
+    if ((desc.flags & SUPPLE_GROUP_RAY_TRACING) != 0 && !device_->rayTracing) {
+        return Error{ErrorCode::argument,
+                     "suppleCreateGroup: SUPPLE_GROUP_RAY_TRACING: the context was created without "
+                     "SUPPLE_CONTEXT_RAY_TRACING"};
     }
     if (desc.poseSource == SUPPLE_POSES_PLAYBACK) {
         if (const Result<skinning::PoseKernels*> pose = kernels_->pose(); !pose) {

@@ -39,7 +39,7 @@ static_assert(SUPPLE_SCHEME_PREP == static_cast<int>(SchemeId::prep) &&
               SUPPLE_SCHEME_CATMULL_CLARK == static_cast<int>(SchemeId::catmullClark));
 static_assert(SUPPLE_MAX_CREASE_SETS == kMaxCreaseSets && SUPPLE_MAX_CREASE_SETS == cage::kMaxCreaseSets);
 static_assert(SUPPLE_DOMAIN_MESH == surface::kDomainCount);
-static_assert(SUPPLE_VERTEX_16 == kVertex16 && SUPPLE_VERTEX_24 == kVertex24);
+static_assert(SUPPLE_VERTEX_16 == kVertex16 && SUPPLE_VERTEX_24 == kVertex24 && SUPPLE_VERTEX_12 == kVertexPosition);
 
 } // namespace
 

@@ -48,13 +48,14 @@ void StreamSet::keepAttributes(uint32_t present) {
 }
 
 void VertexStreams::plan(gpu::BufferPlan& plan, StreamSet set, SuppleVertexFormat format, VkDeviceSize vertices,
-                         VkDeviceSize stride, uint32_t capacity) {
+                         VkDeviceSize stride, uint32_t capacity, VkBufferUsageFlags usage) {
     set_ = set;
     format_ = format;
     forEachStream([&](Stream stream, const StreamRow& row) {
         const VkDeviceSize count = row.written == Written::perFrame ? stride * capacity : vertices;
         buffers_[static_cast<size_t>(stream)] =
-            plan.add({row.name, set.has(stream) ? count * bytes(stream) : 0, row.usage,
+            plan.add({row.name, set.has(stream) ? count * bytes(stream) : 0,
+                      row.usage | (stream == Stream::vertices ? usage : 0),
                       stream == Stream::vertices ? gpu::MemoryPurpose::vertices : gpu::MemoryPurpose::streams});
     });
 }

@@ -83,15 +83,16 @@ private:
 
 /// Bytes of a surface vertex.
 [[nodiscard]] constexpr uint32_t vertexBytes(SuppleVertexFormat format) {
-    return format == SUPPLE_VERTEX_24 ? 24 : 16;
+    return format == SUPPLE_VERTEX_24 ? 24 : format == SUPPLE_VERTEX_12 ? 12 : 16;
 }
 
 /// The buffers of the streams. Their owner is a group, or a view for all its groups with levels.
 class VertexStreams {
 public:
     /// `vertices`: of an instance, without padding; `stride`: with it. A view is one instance.
+    /// `usage`: what the surface vertices have beside the usage of their row.
     void plan(gpu::BufferPlan& plan, StreamSet set, SuppleVertexFormat format, VkDeviceSize vertices,
-              VkDeviceSize stride, uint32_t capacity);
+              VkDeviceSize stride, uint32_t capacity, VkBufferUsageFlags usage = 0);
 
     [[nodiscard]] const StreamSet& set() const { return set_; }
     [[nodiscard]] bool has(Stream stream) const { return set_.has(stream); }

@@ -159,7 +159,8 @@ layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_INSTANCES_BINDING, std430) rea
     uint suppleInstances[];
 };
 #endif
-#ifdef SUPPLE_SURFACE_VERTEX_24 // SUPPLE_VERTEX_24: three floats of position, three of normal
+// SUPPLE_VERTEX_24: three floats of position, three of normal; SUPPLE_VERTEX_12: three of position, and there is no suppleNormal
+#if defined(SUPPLE_SURFACE_VERTEX_24) || defined(SUPPLE_SURFACE_VERTEX_12)
 layout(set = SUPPLE_SURFACE_SET, binding = SUPPLE_VERTICES_BINDING, std430) readonly buffer SuppleVertices {
     float suppleVertices[];
 };
@@ -230,6 +231,11 @@ vec3 supplePosition(SuppleVertex at) {
 vec3 suppleNormal(SuppleVertex at) {
     uint i = 6u * at.index;
     return vec3(suppleVertices[i + 3u], suppleVertices[i + 4u], suppleVertices[i + 5u]);
+}
+#elif defined(SUPPLE_SURFACE_VERTEX_12)
+vec3 supplePosition(SuppleVertex at) {
+    uint i = 3u * at.index;
+    return vec3(suppleVertices[i], suppleVertices[i + 1u], suppleVertices[i + 2u]);
 }
 #else
 vec3 supplePosition(SuppleVertex at) { return uintBitsToFloat(suppleVertices[at.index].xyz); }

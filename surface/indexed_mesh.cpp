@@ -109,4 +109,30 @@ IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation) {
     return mesh;
 }
 
+uint64_t gridMeshIndices(const Tables& tables, const Evaluation& evaluation) {
+    uint64_t count = 0;
+    for (const DrawRange& draw : tables.drawRanges) {
+        count += gridIndices(draw.domain, evaluation.rate).size() * uint64_t{draw.patchCount};
+    }
+    return count;
+}
+
+IndexedMesh gridMesh(const Tables& tables, const Evaluation& evaluation) {
+    IndexedMesh mesh;
+    mesh.indices.reserve(gridMeshIndices(tables, evaluation));
+    uint32_t firstVertex = 0;
+    for (const DrawRange& draw : tables.drawRanges) {
+        const std::vector<uint16_t> grid = gridIndices(draw.domain, evaluation.rate);
+        const auto indexCount = static_cast<uint32_t>(grid.size()) * draw.patchCount;
+        mesh.ranges.push_back({draw.part, draw.material, static_cast<uint32_t>(mesh.indices.size()), indexCount});
+        for (uint32_t patch = 0; patch < draw.patchCount; ++patch) {
+            for (const uint16_t sample : grid) {
+                mesh.indices.push_back(firstVertex + sample);
+            }
+            firstVertex += sampleCount(draw.domain, evaluation.rate);
+        }
+    }
+    return mesh;
+}
+
 } // namespace supple::surface

@@ -29,5 +29,10 @@ struct IndexedMesh {
     std::vector<Range> ranges; ///< in that order
 };
 [[nodiscard]] IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation);
+/// The grids of all patches of one instance as one mesh. It shares no sample. A range for each of Tables::drawRanges,
+/// in their order; patch after patch, in the order of gridIndices().
+[[nodiscard]] IndexedMesh gridMesh(const Tables& tables, const Evaluation& evaluation);
+/// How many indices that has.
+[[nodiscard]] uint64_t gridMeshIndices(const Tables& tables, const Evaluation& evaluation);
 
 } // namespace supple::surface

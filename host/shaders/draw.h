@@ -23,6 +23,7 @@ SUPPLE_HOST_CONST kFrameBinding = 0u;
 SUPPLE_HOST_CONST kShadowBinding = 1u;
 SUPPLE_HOST_CONST kEnvironmentBinding = 2u;
 SUPPLE_HOST_CONST kShadowDepthBinding = 3u; // the image of kShadowBinding
+SUPPLE_HOST_CONST kRayBinding = 4u;         // pictures that are traced: what rays meet
 // Set 1, the figure: what Supple hands out, and two tables the host makes of the cage.
 SUPPLE_HOST_CONST kSurfaceVertexBinding = 0u;
 SUPPLE_HOST_CONST kSurfaceAttributeBinding = 1u;

@@ -17,7 +17,11 @@ void main() {
     }
     vec3 lit = vec3(0.0), all = vec3(0.0);
     vec3 noise = pixelNoise(gl_FragCoord.xy);
+#ifdef TRACED
+    vec3 receiver = inPosition + vec3(0.0, kRayOffset * frame.target.w, 0.0);
+#else
     vec3 receiver = inPosition + vec3(0.0, frame.shadowTexel, 0.0);
+#endif
     for (uint i = 0u; i < frame.lightCount; ++i) {
         vec4 light = frame.lights[i].color;
         float weight = max(frame.lights[i].direction.y, 0.0);
@@ -31,12 +35,16 @@ void main() {
             continue;
         }
         noise = nextNoise(noise);
+#ifdef TRACED
+        float visible = tracedVisibility(i, receiver, noise);
+#else
         // What stands above this place is about as far away as the light comes from aside.
         float aside = sqrt(max(1.0 - frame.lights[i].direction.y * frame.lights[i].direction.y, 0.09));
         float nearby = frame.target.w * clamp(away / aside, 0.1, 1.2);
         float visible = areCones()
                             ? coneVisibility(i, receiver, vec3(0.0, 1.0, 0.0), frame.lights[i].direction.y, noise, nearby)
                             : lightVisibility(i, receiver);
+#endif
         // A few directions of sky are no soft shadow yet: far from the figure they fade, near it they hold it down.
         if (sky)
             visible = mix(visible, 1.0,

@@ -2,6 +2,9 @@
 // sampled environment and has its own small shadow map, so that shadows soften with distance and corners darken. What is
 // mirrored are the soft boxes of these lights, walls and floor (host/environment.h).
 #extension GL_EXT_samplerless_texture_functions : require
+#ifdef TRACED
+#extension GL_EXT_ray_query : require
+#endif
 #include "pbr.glsl"
 
 layout(set = 0, binding = kShadowBinding) uniform sampler2DArrayShadow shadowMaps;
@@ -11,6 +14,8 @@ layout(set = 0, binding = kShadowDepthBinding) uniform texture2DArray shadowDept
 const float kPi = 3.14159265;
 /// In radii of the scene: parts of a figure hide light from each other from about so far.
 const float kNearby = 0.25;
+/// Rays start off a surface by more than its triangles lie beside it.
+const float kRayOffset = 1.5e-3;
 
 // Radiance of what is mirrored besides key and rim. Walls and floor are lightest where they meet.
 const vec3 kOverhead = vec3(0.92, 0.95, 1.0);
@@ -75,6 +80,24 @@ float coneVisibility(uint light, vec3 position, vec3 n, float nl, vec3 noise, fl
     return min(at.z + slope * met, 1.0) > shadowDepthAt(light, at.xy + ray * met + within) ? 0.0 : 1.0;
 }
 
+#ifdef TRACED
+layout(set = 0, binding = kRayBinding) uniform accelerationStructureEXT raysMeet;
+
+/// The same by a ray into the light's cone. Glass lets it through.
+float tracedVisibility(uint light, vec3 position, vec3 noise) {
+    vec4 cone = frame.lights[light].direction;
+    vec3 x = normalize(abs(cone.x) > 0.5 ? vec3(cone.y, -cone.x, 0.0) : vec3(0.0, cone.z, -cone.y)), y = cross(cone.xyz, x);
+    vec2 aside = noise.xy * (sqrt(noise.z) * cone.w);
+    vec3 direction = normalize(cone.xyz + aside.x * x + aside.y * y);
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, raysMeet, gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsCullNoOpaqueEXT, 0xFF, position, 0.0,
+                          direction, 8.0 * frame.target.w);
+    while (rayQueryProceedEXT(query)) {
+    }
+    return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT ? 1.0 : 0.0;
+}
+#endif
+
 /// What the rig sends to a place: a few numbers that vary slowly, so that dense vertices may carry them.
 struct Incident {
     vec3 sky;   // irradiance
@@ -94,7 +117,11 @@ Incident gatherLight(vec3 position, vec3 n, uint look, vec3 noise) {
     // What faces away from a light is not called hidden from it: it may mirror its edge.
     float seen[3] = float[3](0.02, 0.02, 0.02), all[3] = float[3](0.02, 0.02, 0.02);
     // Receivers step off the surface: along the normal by a good texel, so that a map's own steps cast no shadow.
+#ifdef TRACED
+    vec3 receiver = position + n * (kRayOffset * frame.target.w);
+#else
     vec3 receiver = position + n * (frame.shadowTexel * 1.6);
+#endif
     for (uint i = 0u; i < frame.lightCount; ++i) {
         noise = nextNoise(noise);
         float nl = dot(n, frame.lights[i].direction.xyz);
@@ -102,9 +129,13 @@ Incident gatherLight(vec3 position, vec3 n, uint look, vec3 noise) {
             continue;
         vec4 color = frame.lights[i].color;
         uint part = uint(color.w);
+#ifdef TRACED
+        float seenShare = tracedVisibility(i, receiver, noise);
+#else
         float seenShare = look == kLookIntoCones || (look == kLookAsFits && areCones())
                               ? coneVisibility(i, receiver, n, nl, noise, kNearby * frame.target.w)
                               : lightVisibility(i, receiver);
+#endif
         float visible = seenShare * nl;
         seen[part] += visible;
         all[part] += nl;

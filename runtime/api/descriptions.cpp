@@ -28,7 +28,7 @@ constexpr uint32_t kGroupFlags = runtime::streamFlags(&runtime::StreamRow::group
                                  SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
                                  SUPPLE_GROUP_WINDOWS | SUPPLE_GROUP_POSE_UNSEEN | SUPPLE_GROUP_MODIFIERS |
                                  SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES | SUPPLE_GROUP_SPRINGS |
-                                 SUPPLE_GROUP_SOFT;
+                                 SUPPLE_GROUP_SOFT | SUPPLE_GROUP_RAY_TRACING;
 constexpr uint32_t kFlagsInViews = SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS | SUPPLE_GROUP_POSE_UNSEEN |
                                    SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES |
                                    SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT;
@@ -209,6 +209,12 @@ std::optional<Error> faultOfFlags(const SuppleGroupDesc& desc) {
     if (has(SUPPLE_GROUP_TANGENTS) && !has(SUPPLE_GROUP_ATTRIBUTES)) {
         return Error{ErrorCode::argument, "TANGENTS go with ATTRIBUTES"};
     }
+    if (has(SUPPLE_GROUP_TANGENTS) && desc.vertexFormat == SUPPLE_VERTEX_12) {
+        return Error{ErrorCode::argument, "TANGENTS go with normals, which SUPPLE_VERTEX_12 has none of"};
+    }
+    if (has(SUPPLE_GROUP_RAY_TRACING) && desc.scheme == SUPPLE_SCHEME_CAGE) {
+        return Error{ErrorCode::argument, "SUPPLE_GROUP_RAY_TRACING: a cage has no triangles of a surface"};
+    }
     return std::nullopt;
 }
 
@@ -233,7 +239,7 @@ std::optional<Error> faultOfValues(const SuppleGroupDesc& desc) {
         runtime::rawValue(desc.scheme) != SUPPLE_SCHEME_CAGE) {
         return Error{ErrorCode::range, "no such scheme"};
     }
-    if (!within(desc.vertexFormat, SUPPLE_VERTEX_24) || !within(desc.skinning, SUPPLE_SKINNING_FROM_FILE) ||
+    if (!within(desc.vertexFormat, SUPPLE_VERTEX_12) || !within(desc.skinning, SUPPLE_SKINNING_FROM_FILE) ||
         !within(desc.poseSource, SUPPLE_POSES_PLAYBACK)) {
         return Error{ErrorCode::range, "no such vertexFormat, skinning or poseSource"};
     }

@@ -1,4 +1,5 @@
 // supple.h, device: version, requirements, context.
+#include "gpu/ray_tracing.h"
 #include "runtime/api/entry.h"
 
 #include <cstdio>
@@ -41,6 +42,24 @@ const char* suppleResultString(SuppleResult result) {
     return "unknown SuppleResult";
 }
 
+namespace {
+
+/// What contexts with these flags need besides.
+void fillOptional(uint32_t contextFlags, SuppleRequirements& out) {
+    out.contextFlags = contextFlags;
+    out.accelerationStructure.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR;
+    if ((contextFlags & (SUPPLE_CONTEXT_SHARED_DISPATCHES | SUPPLE_CONTEXT_RAY_TRACING)) != 0) {
+        out.features12.bufferDeviceAddress = VK_TRUE;
+    }
+    if ((contextFlags & SUPPLE_CONTEXT_RAY_TRACING) != 0) {
+        out.accelerationStructure.accelerationStructure = VK_TRUE;
+        out.extensions = gpu::rayTracingExtensions().data();
+        out.extensionCount = static_cast<uint32_t>(gpu::rayTracingExtensions().size());
+    }
+}
+
+} // namespace
+
 SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physicalDevice,
                                      PFN_vkGetInstanceProcAddr getInstanceProcAddr, SuppleRequirements* out) {
     if (out == nullptr) {
@@ -70,10 +89,15 @@ SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physi
             std::memcpy(&given, out, sizeof(given));
         }
         filled.instanceVersion = given.instanceVersion;
+        const bool tracesRays = (given.contextFlags & SUPPLE_CONTEXT_RAY_TRACING) != 0;
+        fillOptional(given.contextFlags, filled);
         std::string missing =
             gpu::missingInInstance(instance, physicalDevice, getInstanceProcAddr, given.instanceVersion);
         if (missing.empty()) {
             missing = gpu::missingRequirement(instance, physicalDevice, getInstanceProcAddr);
+        }
+        if (missing.empty() && tracesRays) {
+            missing = gpu::missingForRayTracing(instance, physicalDevice, getInstanceProcAddr);
         }
         std::snprintf(filled.reason, sizeof(filled.reason), "%s", missing.c_str());
         runtime::writeSized(filled, *out);
@@ -114,7 +138,7 @@ SuppleResult suppleCreateContext(const SuppleContextDesc* given, SuppleContext* 
         }
         constexpr uint32_t kFlags = SUPPLE_CONTEXT_DEBUG_UTILS | SUPPLE_CONTEXT_ASYNC_COMPUTE |
                                     SUPPLE_CONTEXT_SHARED_DISPATCHES | SUPPLE_CONTEXT_RECORDABLE |
-                                    SUPPLE_CONTEXT_FAN_RECORDS;
+                                    SUPPLE_CONTEXT_FAN_RECORDS | SUPPLE_CONTEXT_RAY_TRACING;
         if (desc.framesInFlight > SUPPLE_MAX_FRAMES_IN_FLIGHT || !within(desc.mapping, SUPPLE_MAPPING_WIDE) ||
             (desc.flags & ~kFlags) != 0) {
             return refusedHere(

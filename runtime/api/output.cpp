@@ -1,4 +1,4 @@
-// supple.h, output.
+// supple.h, output; supple_rays.h.
 #include "runtime/api/entry.h"
 #include "runtime/api/patches.h"
 
@@ -40,6 +40,17 @@ SuppleResult suppleGetGridOutput(SuppleContext handle, SuppleGroup group, uint32
         }
         group.noteOutputsAsked();
         return describe(context, kHere, out, [&](SuppleGridOutput& output) { found.fillGrid(output); });
+    });
+}
+
+SuppleResult suppleGetRayGeometry(SuppleContext handle, SuppleGroup group, uint32_t surface, SuppleRayGeometry* out) {
+    constexpr const char* kHere = "suppleGetRayGeometry";
+    return withSurface(handle, group, surface, kHere, [&](Context& context, Group& group, const Tessellation& found) {
+        if (!found.isTraced()) {
+            return refuse(context, group, ErrorCode::argument, kHere, "the group lacks SUPPLE_GROUP_RAY_TRACING");
+        }
+        group.noteOutputsAsked();
+        return describe(context, kHere, out, [&](SuppleRayGeometry& geometry) { found.fillRays(geometry); });
     });
 }
 

@@ -41,6 +41,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleGroupInfo)                                                                                                 \
     X(SuppleSurfaceInfo)                                                                                               \
     X(SuppleVertexStreams)                                                                                             \
+    X(SuppleRayGeometry)                                                                                               \
     X(SuppleGridOutput)                                                                                                \
     X(SuppleRecordDesc)                                                                                                \
     X(SuppleBudget)                                                                                                    \

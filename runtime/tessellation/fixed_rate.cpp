@@ -54,6 +54,15 @@ Status FixedRate::begin() {
         grids_.addRate(tables(), rate);
     }
     indexData_ = grids_.takeIndices();
+    if (isTraced()) {
+        status = checkRayIndices(surface::gridMeshIndices(tables(), evaluation_));
+        if (!status) {
+            return status;
+        }
+        surface::IndexedMesh whole = surface::gridMesh(tables(), evaluation_);
+        setRayRanges(whole);
+        wholeIndexData_ = IndexBytes(std::move(whole.indices));
+    }
     setDraws(drawsAt(maxRate_));
     return success();
 }
@@ -72,6 +81,10 @@ Status FixedRate::prepareRate(uint32_t rate) {
         return Error{ErrorCode::argument, name + ": the tables of " +
                                               surface::schemeOf(built_.scheme->recipe().scheme).name +
                                               " are made for rate " + std::to_string(built_.askedRate) + " alone"};
+    }
+    if (isTraced() && rate != built_.askedRate) {
+        return Error{ErrorCode::argument, name + ": the triangles that are traced are made for rate " +
+                                              std::to_string(built_.askedRate) + " alone"};
     }
     const Status takes = canChange() ? checkRate(rate, maxRate_ << tables().isolationSteps) : success();
     if (!takes || !canChange() || patchRate(rate) == evaluation_.rate) {

@@ -69,7 +69,7 @@ Status OneRate::cutDraws(InstanceWindows& windows, bool byWindows) {
 }
 
 Status OneRate::createSets(const SurfaceInput& input, const InstanceListing& listing, const Visibility& visibility) {
-    const Status made = createIndices(std::exchange(indexData_, {}));
+    const Status made = createIndices(std::exchange(indexData_, {}), std::exchange(wholeIndexData_, {}));
     rates_.front().instances = visibility.list().slots();
     return made ? OwnVertices::createSets(input, listing, visibility) : made;
 }

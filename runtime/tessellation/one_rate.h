@@ -48,7 +48,7 @@ protected:
 
     void setDraws(std::vector<SuppleDrawRange> draws);
 
-    IndexBytes indexData_; ///< until the index buffer is made
+    IndexBytes indexData_, wholeIndexData_; ///< until the index buffers are made
     HostDraws hostDraws_;
     uint32_t drawWindows_ = 1;
 };

@@ -1,5 +1,6 @@
 #include "runtime/tessellation/own_vertices.h"
 
+#include "gpu/ray_tracing.h"
 #include "surface/grid.h"
 #include "surface/indexed_mesh.h"
 
@@ -43,7 +44,8 @@ Status OwnVertices::cutDraws(InstanceWindows& windows, bool byWindows) {
 void OwnVertices::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
     Tessellation::plan(device, staging);
     streams_.plan(device, built_.outputs.streams, static_cast<SuppleVertexFormat>(programOptions().vertexFormat),
-                  vertexCount_, evaluation_.verticesPerInstance, desc_.group.capacity);
+                  vertexCount_, evaluation_.verticesPerInstance, desc_.group.capacity,
+                  isTraced() ? gpu::kBuildInputUsage : 0);
     attributes_.renew(built_.outputs.streams.has(Stream::attributes));
 }
 
@@ -60,10 +62,31 @@ Result<IndexBytes> OwnVertices::layOutMesh(const surface::Evaluation& evaluation
         draws_.push_back(
             {0, 1, from.material, SUPPLE_DOMAIN_MESH, vertices, 0, from.firstIndex, from.indexCount, from.part});
     }
+    if (const Status fits = checkRayIndices(mesh.indices.size()); !fits) {
+        return fits.error();
+    }
+    setRayRanges(mesh);
     return IndexBytes(std::move(mesh.indices));
 }
 
-Status OwnVertices::createIndices(IndexBytes indices) {
+Status OwnVertices::checkRayIndices(uint64_t count) const {
+    constexpr uint64_t kMost = UINT32_MAX / sizeof(uint32_t);
+    if (isTraced() && count > kMost) {
+        return Error{ErrorCode::limit, desc_.asset->character.name + ": " + std::to_string(count / 3) +
+                                           " triangles to trace; acceleration structures find at most " +
+                                           std::to_string(kMost / 3)};
+    }
+    return success();
+}
+
+void OwnVertices::setRayRanges(const surface::IndexedMesh& mesh) {
+    rayRanges_.clear();
+    for (const surface::IndexedMesh::Range& range : mesh.ranges) {
+        rayRanges_.push_back({range.firstIndex, range.indexCount / 3, range.material, range.part});
+    }
+}
+
+Status OwnVertices::createIndices(IndexBytes indices, IndexBytes whole) {
     const Tessellation* const before = std::exchange(desc_.before, nullptr);
     const SharedIndices* const known = before != nullptr ? before->indices() : nullptr;
     if (known != nullptr && &before->scheme() == built_.scheme.get() &&
@@ -71,11 +94,14 @@ Status OwnVertices::createIndices(IndexBytes indices) {
         indices_ = *known;
         return success();
     }
-    const gpu::StaticRequest request{"supple grid indices",
-                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                                     indices.bytes, std::move(indices.keeper)};
-    Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(*desc_.device, {&request, 1});
+    const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                                     (isTraced() ? gpu::kBuildInputUsage : 0);
+    std::vector<gpu::StaticRequest> requests{{"supple grid indices", usage, indices.bytes, std::move(indices.keeper)}};
+    if (isTraced() && wholeList() != 0) {
+        requests.push_back({"supple ray indices", usage, whole.bytes, std::move(whole.keeper)});
+    }
+    Result<gpu::StaticBuffers> statics = gpu::StaticBuffers::create(*desc_.device, requests);
     if (!statics) {
         return statics.error();
     }
@@ -118,10 +144,28 @@ void OwnVertices::fillGrid(SuppleGridOutput& output) const {
     output.rateCount = static_cast<uint32_t>(rates_.size());
 }
 
+void OwnVertices::fillRays(SuppleRayGeometry& output) const {
+    const size_t list = wholeList();
+    const VkBuffer indices = indices_.buffers->buffer(list);
+    output.format = VK_FORMAT_R32G32B32_SFLOAT;
+    output.vertices = gpu::addressOf(*desc_.device, streams_.buffer(Stream::vertices));
+    output.vertexStride = streams_.bytes(Stream::vertices);
+    output.instanceStride = evaluation_.verticesPerInstance * output.vertexStride;
+    output.indices = gpu::addressOf(*desc_.device, indices);
+    output.indexBuffer = {indices, 0, indices_.buffers->size(list), sizeof(uint32_t)};
+    output.maxVertex = std::max(vertexCount_, 1u) - 1;
+    output.triangleCount = static_cast<uint32_t>(indices_.buffers->size(list) / (3 * sizeof(uint32_t)));
+    output.rangeCount = static_cast<uint32_t>(rayRanges_.size());
+    output.ranges = rayRanges_.data();
+}
+
 void OwnVertices::addTransfers(Transfers& transfers, uint64_t frame) const {
     streams_.addTransfers(transfers, attributes_.recordedIn(frame));
     if (indices_.release.recordedIn(frame)) {
         transfers.add(indices_.buffers->buffer(0));
+        if (isTraced() && wholeList() != 0) {
+            transfers.add(indices_.buffers->buffer(wholeList()));
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/tessellation/tessellation.h"
+#include "surface/indexed_mesh.h"
 
 #include <memory>
 #include <span>
@@ -33,6 +34,7 @@ public:
     [[nodiscard]] const VertexStreams* streams() const override { return &streams_; }
     [[nodiscard]] const SharedIndices* indices() const override { return &indices_; }
     void fillGrid(SuppleGridOutput& output) const override;
+    void fillRays(SuppleRayGeometry& output) const override;
     void addTransfers(Transfers& transfers, uint64_t frame) const override;
 
     [[nodiscard]] Status createSets(const SurfaceInput& input, const InstanceListing& listing,
@@ -49,12 +51,17 @@ protected:
     [[nodiscard]] Status setVertexCount(uint64_t vertices);
     /// Lays out one mesh per instance: its index buffer, and a draw range per material and part at the end of draws_.
     [[nodiscard]] Result<IndexBytes> layOutMesh(const surface::Evaluation& evaluation, uint32_t vertices);
-    /// Takes the bytes, unless the surface before has the same.
-    [[nodiscard]] Status createIndices(IndexBytes indices);
+    /// Takes the bytes, unless the surface before has the same. `whole`: of a whole instance (SharedIndices::buffers).
+    [[nodiscard]] Status createIndices(IndexBytes indices, IndexBytes whole);
+    /// If isTraced(): builds find a range by a byte of 32 bits.
+    [[nodiscard]] Status checkRayIndices(uint64_t count) const;
+    void setRayRanges(const surface::IndexedMesh& mesh);
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
     /// Attributes are the same for all instances: a window of one.
     virtual void recordAttributeSteps(gpu::Dispatches& dispatches) const;
     [[nodiscard]] surface::Window oneInstance(const surface::Sets& sets) const;
+    /// Which of SharedIndices::buffers has the triangles of a whole instance: of a mesh, those that are drawn.
+    [[nodiscard]] size_t wholeList() const { return kind() == SUPPLE_TESSELLATION_GRIDS ? 1 : 0; }
 
     uint32_t vertexCount_ = 0; ///< of an instance
     VertexStreams streams_;
@@ -62,7 +69,8 @@ protected:
     uint32_t indexBytes_ = 2;
     RecordedOnce attributes_;
     std::vector<SuppleDrawRange> draws_;
-    std::vector<SuppleRate> rates_; ///< what is drawn at each rate
+    std::vector<SuppleRate> rates_;         ///< what is drawn at each rate
+    std::vector<SuppleRayRange> rayRanges_; ///< if isTraced()
 };
 
 /// One index buffer for the grids of several rates, and the draw ranges over them.

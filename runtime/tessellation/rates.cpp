@@ -193,7 +193,7 @@ Culling::Surface Rates::culledSurface() const {
 }
 
 Status Rates::createSets(const SurfaceInput& input, const InstanceListing& listing, const Visibility& visibility) {
-    Status status = createIndices(std::exchange(indexData_, {}));
+    Status status = createIndices(std::exchange(indexData_, {}), {}); // no view is traced
     status = status ? OwnVertices::createSets(input, listing, visibility) : status;
     for (Rate& rate : own_) {
         addMember(rate.scheme->buffers);

@@ -31,8 +31,9 @@ inline constexpr uint32_t kVertexPadding = 64;
 
 /// The index buffer of a surface. The surface of a group that is made anew takes it over if it has the same indices.
 struct SharedIndices {
-    std::shared_ptr<gpu::StaticBuffers> buffers; ///< 0: the indices
-    RecordedOnce release;                        ///< to the queue family that draws
+    /// 0: the indices that are drawn. 1, of grids that are traced: those of a whole instance.
+    std::shared_ptr<gpu::StaticBuffers> buffers;
+    RecordedOnce release; ///< to the queue family that draws
 };
 
 /// The base class has what all have in common: what is built (BuiltSurface), what lies on the device (SurfaceMemory),
@@ -108,6 +109,10 @@ public:
     /// Null without surface vertices.
     [[nodiscard]] virtual const VertexStreams* streams() const { return nullptr; }
     virtual void fillGrid(SuppleGridOutput& /*output*/) const {}
+    /// SUPPLE_GROUP_RAY_TRACING: hosts build acceleration structures from it.
+    [[nodiscard]] bool isTraced() const { return (desc_.group.flags & SUPPLE_GROUP_RAY_TRACING) != 0; }
+    /// If isTraced().
+    virtual void fillRays(SuppleRayGeometry& /*output*/) const {}
     virtual void fillLevels(SuppleLevelOutput& /*output*/) const {}
     [[nodiscard]] const gpu::PlannedBuffer& patchCoefficients() const { return memory_.patches(); }
     /// Null if the index buffer is not its own.

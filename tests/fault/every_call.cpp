@@ -529,6 +529,11 @@ private:
                                [&](auto* out) { return suppleGetSurfaceInfo(handle(), groups_[0], 0, out); });
         get<SuppleVertexStreams>("suppleGetVertexStreams",
                                  [&](auto* out) { return suppleGetVertexStreams(handle(), groups_[0], 0, out); });
+        SuppleRayGeometry geometry{};
+        geometry.structSize = sizeof(geometry);
+        call(
+            "suppleGetRayGeometry, of a group that is not traced",
+            [&] { return suppleGetRayGeometry(handle(), groups_[0], 0, &geometry); }, SUPPLE_ERROR_ARGUMENT);
         get<SuppleLevelOutput>("suppleGetLevelOutput",
                                [&](auto* out) { return suppleGetLevelOutput(handle(), groups_[kSeen], 0, out); });
         get<SuppleMemoryUse>("suppleGetAssetMemory",

@@ -1321,7 +1321,7 @@ void views(Rows& r) {
     spoiled("UVS1 alone", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_UVS1; });
     spoiled("TANGENTS alone", kBad, SUPPLE_MESSAGE_CONFLICT, [](Desc& d) { d.flags = SUPPLE_VIEW_TANGENTS; });
     spoiled("too few vertices", kBad, kRange, [](Desc& d) { d.maxVertices = 1023; });
-    spoiled("vertexFormat", kBad, kRange, [](Desc& d) { d.vertexFormat = static_cast<SuppleVertexFormat>(2); });
+    spoiled("vertexFormat", kBad, kRange, [](Desc& d) { d.vertexFormat = SUPPLE_VERTEX_12; });
     spoiled("too many runs", kBad, kRange, [](Desc& d) { d.maxRuns = SUPPLE_MAX_VIEW_RUNS + 1; });
     spoiled("too few coefficients", kBad, kRange, [](Desc& d) { d.coefficientBytes = 255; });
     spoiled("more coefficients than can be bound", SUPPLE_ERROR_LIMIT, SUPPLE_MESSAGE_LIMIT,
@@ -1659,6 +1659,17 @@ void groups(Rows& r) {
     conflict("suppleGetGridOutput", suppleGetGridOutput, "of a cage", &World::spare);
     conflict("suppleGetGridOutput", suppleGetGridOutput, "of levels", &World::seen);
     conflict("suppleGetLevelOutput", suppleGetLevelOutput, "of a cage", &World::spare);
+    // tests/runtime/ray_queries_test.cpp asks a group that has them.
+    constexpr const char* kRays = "suppleGetRayGeometry";
+    r.groups(kRays, [](World& w, SuppleContext c, SuppleGroup g) {
+        return suppleGetRayGeometry(c, g, 0, w.watched<SuppleRayGeometry>(sizeof(SuppleRayGeometry)));
+    });
+    r.refuse(kRays, "surface 1", SUPPLE_MESSAGE_OUT_OF_RANGE, [](World& w) {
+        return suppleGetRayGeometry(w.handle(), w.mine.main.group, 1,
+                                    w.watched<SuppleRayGeometry>(sizeof(SuppleRayGeometry)));
+    });
+    conflict(kRays, suppleGetRayGeometry, "of a cage", &World::spare);
+    conflict(kRays, suppleGetRayGeometry, "of levels", &World::seen);
     constexpr const char* kBounds = "suppleGetInstanceBounds";
     r.groups(kBounds, [](World& w, SuppleContext c, SuppleGroup g) {
         return suppleGetInstanceBounds(c, g, w.plain<SuppleBufferRange>());

@@ -338,6 +338,13 @@ void addOutputs(std::vector<Mistake>& rows) {
                         auto out = Scene::asking<SuppleLevelOutput>();
                         return suppleGetLevelOutput(s.context(), s.cage.group, 0, &out);
                     }});
+    rows.push_back(
+        {"a group with `SUPPLE_GROUP_RAY_TRACING` in a context without `SUPPLE_CONTEXT_RAY_TRACING`",
+         [](Scene& s) { return createGroup(s.context(), s.asset, {.flags = SUPPLE_GROUP_RAY_TRACING}).result; }});
+    rows.push_back({"`suppleGetRayGeometry` of a group without `SUPPLE_GROUP_RAY_TRACING`", [](Scene& s) {
+                        auto out = Scene::asking<SuppleRayGeometry>();
+                        return suppleGetRayGeometry(s.context(), s.cage.group, 0, &out);
+                    }});
     rows.push_back({"a surface that the group lacks", [](Scene& s) {
                         auto out = Scene::asking<SuppleSurfaceInfo>();
                         return suppleGetSurfaceInfo(s.context(), s.cage.group, 1, &out);

@@ -85,6 +85,7 @@ public:
     Status operator()(const calls::DestroyView& call) { return check(suppleDestroyView(context_, r_.own(call.view))); }
     Status operator()(const calls::CreateGroup& call) {
         SuppleGroupDesc desc = call.desc;
+        desc.flags &= ~uint32_t{SUPPLE_GROUP_RAY_TRACING}; // no bits of the surface depend on it
         desc.asset = r_.own(call.desc.asset);
         desc.view = r_.own(call.desc.view);
         desc.instancesOf = r_.own(call.desc.instancesOf);

@@ -40,6 +40,7 @@ struct DeviceFlags {
     std::string mapping = "auto";
     bool validate = false;
     std::string record; ///< file for a recording; empty: none
+    bool rayTracing = false;
 };
 void bindDevice(CLI::App& command, std::string& device, std::string& mapping, bool& validate);
 void bindDevice(CLI::App& command, DeviceFlags& flags);

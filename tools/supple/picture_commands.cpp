@@ -124,6 +124,18 @@ void bindCamera(CLI::App& command, RenderOptions& options) {
     }
 }
 
+/// After the options that it excludes.
+void bindTrace(CLI::App& command, DrawOptions& draw) {
+    const HelpGroup heading(command, "What is shown");
+    CLI::Option* const trace =
+        command.add_flag("--trace", draw.trace,
+                         "Shadows and the darkness of corners by rays that meet the surface, instead of shadow maps; "
+                         "the device needs ray "
+                         "queries. Materials with holes throw shadows as if they had none, glass throws none");
+    for (const char* other : {"--levels", "--split"})
+        trace->excludes(command.get_option(other));
+}
+
 void bindAlpha(CLI::App& command, DrawOptions& draw) {
     const HelpGroup heading(command, "What is shown");
     command.add_flag("--alpha", draw.alpha,
@@ -181,6 +193,7 @@ void bindRender(CLI::App& app, int& exitCode) {
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
     bindLooks(*command, options->draw);
+    bindTrace(*command, options->draw);
     bindCamera(*command, *options);
     bindSimulate(*command, options->draw.simulate);
     command->callback([options, &exitCode] {

@@ -209,6 +209,8 @@ int runRender(const RenderOptions& options) {
     const Result<PictureKind> picture = parsePicture("--size", options.size, options.draw.view);
     if (!picture)
         return fail(kExitUsage, picture.error().message);
+    if (options.draw.trace && options.draw.scheme == "cage")
+        return fail(kExitUsage, "--trace: rays meet a surface, and --scheme cage has none");
     const OutputPath output[] = {{"--output", options.output}};
     if (const Status writable = canWrite(output); !writable)
         return fail(writable.error());

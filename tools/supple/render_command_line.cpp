@@ -136,6 +136,7 @@ std::string commandLine(const RenderOptions& options) {
     words.option("--look-at", options.lookAt, usual.lookAt);
     words.option("--up", options.up, usual.up);
     words.option("--fov", options.fieldOfView, usual.fieldOfView);
+    words.flag("--trace", options.draw.trace);
     addDraw(words, options.draw);
     return words.text();
 }

@@ -36,6 +36,7 @@ struct DrawOptions {
     bool ground = true;                  ///< a floor that takes shadows
     bool legend = true;                  ///< what the view's colors stand for, in the picture's corner
     bool alpha = false;                  ///< nothing behind the figure: render, animate
+    bool trace = false;                  ///< rays find what the light sees: render
     double yaw = 35.0;   ///< degrees; 0 looks at the front (the asset's +Z), positive goes round to its left side
     double pitch = 12.0; ///< degrees; positive looks down
     host::ReadOptions reading;

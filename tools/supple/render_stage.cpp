@@ -1,5 +1,6 @@
 #include "tools/supple/render_stage.h"
 
+#include "host/material_uniforms.h"
 #include "tools/common/simulation.h"
 
 #include "tools/common/figure_file.h"
@@ -44,8 +45,11 @@ Result<PictureKind> parsePicture(const char* option, const std::string& size, co
 }
 
 DeviceFlags deviceFlags(const DrawOptions& options) {
-    return {
-        .device = options.device, .mapping = options.mapping, .validate = options.validate, .record = options.record};
+    return {.device = options.device,
+            .mapping = options.mapping,
+            .validate = options.validate,
+            .record = options.record,
+            .rayTracing = options.trace};
 }
 
 float radians(double degrees) {
@@ -131,7 +135,8 @@ Result<std::unique_ptr<host::FigureGroup>> Stage::createGroup(bool levels) const
                                              .partSchemes = std::move(*partSchemes),
                                              .levels = levels,
                                              .plays = options_.transition.isThere() || options_.simulate > 0.0,
-                                             .springs = options_.simulate > 0.0});
+                                             .springs = options_.simulate > 0.0,
+                                             .traced = options_.trace});
     if (!group)
         return group.error();
     Status status = (*group)->setMorphWeights(0, *weights);
@@ -140,10 +145,44 @@ Result<std::unique_ptr<host::FigureGroup>> Stage::createGroup(bool levels) const
     return status ? std::move(group) : status.error();
 }
 
+Status Stage::openRays() {
+    const host::FigureMaterials& materials = figure_->materials();
+    host::RayGroupOptions options;
+    options.isOpaque = [&materials](uint32_t material) {
+        return !host::isGlass(materials.of(material), materials.layersOf(material));
+    };
+    Result<std::unique_ptr<host::RayGroup>> group =
+        host::RayGroup::create(*session_.context, group_->handle(), options);
+    if (!group)
+        return group.error();
+    rayGroup_ = std::move(*group);
+    Result<std::unique_ptr<host::RayScene>> scene =
+        host::RayScene::create(*session_.device, 1, 1, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
+    if (!scene)
+        return scene.error();
+    rayScene_ = std::move(*scene);
+    const Result<std::vector<bool>> shown = host::findParts(figure_->path(), figure_->partNames(), options_.parts);
+    for (uint32_t part = 0; shown && part < shown->size(); ++part) {
+        if (!(*shown)[part])
+            hiddenParts_.push_back(part);
+    }
+    return shown ? success() : Status(shown.error());
+}
+
+Status Stage::buildRays() {
+    const host::TracedInstance instance{.slot = group_->instance(0).slot, .hiddenParts = hiddenParts_};
+    const host::RayScene::Part part{rayGroup_.get(), {&instance, 1}};
+    return session_.device->submitAndWait([&](VkCommandBuffer commands) {
+        host::memoryBarrier(commands, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
+                            host::kBuildUse);
+        rayScene_->record(commands, {&part, 1});
+    });
+}
+
 Status Stage::openRenderer(VkExtent2D size) {
     host::Device& device = *session_.device;
-    Result<std::unique_ptr<host::SurfaceRenderer>> renderer =
-        host::SurfaceRenderer::create(device, {.quality = host::StudioQuality::still(size.height, device.isCpu())});
+    Result<std::unique_ptr<host::SurfaceRenderer>> renderer = host::SurfaceRenderer::create(
+        device, {.quality = host::StudioQuality::still(size.height, device.isCpu()), .rays = rayScene_.get()});
     if (!renderer)
         return renderer.error();
     renderer_ = std::move(*renderer);
@@ -181,6 +220,8 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, host::CharacterFile
         return group.error();
     stage->group_ = std::move(*group);
     showProgress("compiling kernels and posing; the first time takes longest");
+    if (const Status status = options.trace ? stage->openRays() : success(); !status)
+        return status.error();
     if (const Status status = stage->openRenderer(size); !status)
         return status.error();
     if (options.view == "weights") {
@@ -212,6 +253,8 @@ Status Stage::bind() {
 }
 
 Status Stage::prepare(const host::Scene& scene) {
+    if (const Status status = rayScene_ ? buildRays() : success(); !status)
+        return status.error();
     if ((options_.levels || options_.view == "levels") && options_.scheme != "cage")
         return chooseLevels(scene);
     if (!cage_ || scene.cageFaces)

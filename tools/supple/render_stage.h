@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
+#include "host/ray_scene.h"
 #include "host/surface_renderer.h"
 #include "tools/supple/measured_views.h"
 #include "tools/supple/render_options.h"
@@ -83,6 +84,9 @@ public:
 private:
     [[nodiscard]] Result<host::Picture> drawPasses(host::Scene scene);
     Stage(Session& session, const DrawOptions& options) : session_(session), options_(options) {}
+    [[nodiscard]] Status openRays();
+    /// Structures of the figure as it is posed.
+    [[nodiscard]] Status buildRays();
     [[nodiscard]] Status openRenderer(VkExtent2D size);
     [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(bool levels) const;
     [[nodiscard]] Status bind();
@@ -100,6 +104,9 @@ private:
     SurfaceRules rules_;
     uint32_t joint_ = 0; ///< whose weights are shown
     ClipTime pose_;
+    std::unique_ptr<host::RayGroup> rayGroup_; ///< if it is traced
+    std::unique_ptr<host::RayScene> rayScene_;
+    std::vector<uint32_t> hiddenParts_; ///< of its rays
     std::unique_ptr<host::SurfaceRenderer> renderer_;
     host::FigureBinding binding_; ///< of the group that is drawn
     host::DrawTarget target_;

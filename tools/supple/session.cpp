@@ -9,8 +9,8 @@ Status inSession(const DeviceFlags& flags, const std::function<Status(Session&)>
     std::shared_ptr<const host::ValidationLog> validation;
     Status status = success();
     {
-        Result<std::unique_ptr<host::Device>> device =
-            host::Device::create({.device = flags.device, .validation = flags.validate});
+        Result<std::unique_ptr<host::Device>> device = host::Device::create(
+            {.device = flags.device, .validation = flags.validate, .rayTracing = flags.rayTracing});
         if (!device) {
             return device.error();
         }

@@ -12,8 +12,8 @@
  *
  * This header is in the order of use. supple_character.h (characters from arrays), supple_prepare.h (characters read on
  * any thread), supple_view.h (level of detail, culling), supple_playback.h (layers of clips, root motion, clips that
- * the device plays), supple_points.h (points that ride on surfaces) and supple_recording.h (what a host does, to be
- * replayed) are for hosts that need them. This header includes all six at its end.
+ * the device plays), supple_points.h (points that ride on surfaces), supple_rays.h (ray tracing) and supple_recording.h
+ * (what a host does, to be replayed) are for hosts that need them. This header includes all seven at its end.
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
@@ -195,8 +195,8 @@ typedef void (*SuppleLogFunction)(SuppleSeverity severity, SuppleMessage message
 /* ---------------------------------------------------------------------------------------------------- device */
 
 /** What a device must have. Feature structs have their sType set and a null pNext, so a host can chain them into
- * VkDeviceCreateInfo. Only what Supple needs is VK_TRUE; a host may set more of them for itself. No device extensions
- * are needed. */
+ * VkDeviceCreateInfo. Only what Supple needs is VK_TRUE; a host may set more of them for itself. Device extensions are
+ * needed for ray tracing alone. */
 typedef struct SuppleRequirements {
     uint32_t structSize;
     uint32_t apiVersion; /**< lowest VkPhysicalDeviceProperties::apiVersion */
@@ -208,6 +208,14 @@ typedef struct SuppleRequirements {
      * its version. So with 0 an instance of 1.0 is refused here, but one of 1.1 or 1.2 only by suppleCreateContext, if
      * the driver follows that rule. */
     uint32_t instanceVersion;
+    /** Set it before the call: the SuppleContextFlags that the context will have, or 0. SHARED_DISPATCHES and
+     * RAY_TRACING need the feature bufferDeviceAddress, and RAY_TRACING what follows here. */
+    uint32_t contextFlags;
+    uint32_t extensionCount;       /**< device extensions to enable: 0 without RAY_TRACING */
+    const char* const* extensions; /**< extensionCount names, in static storage */
+    /** Chain it too if the feature of the same name is VK_TRUE in it, as with RAY_TRACING. Else leave it out: the
+     * device may not know it. */
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR accelerationStructure;
 } SuppleRequirements;
 
 /** SUPPLE_OK: device and instance are suitable. SUPPLE_ERROR_UNSUPPORTED: out->reason says what is lacking. Fills out
@@ -244,7 +252,10 @@ typedef enum SuppleContextFlags {
      * coefficients of these, instead of reading some 144. Positions have the same bits. It is there to be measured: no
      * GPU has run it (docs/benchmarks.md). Without effect on other schemes, in views with levels, and with
      * SUPPLE_GROUP_INDEXED_MESH. Tables for it are made when the group is created: no prepared character has them. */
-    SUPPLE_CONTEXT_FAN_RECORDS = 16
+    SUPPLE_CONTEXT_FAN_RECORDS = 16,
+    /** Groups may have SUPPLE_GROUP_RAY_TRACING. What suppleQueryRequirements says with this flag must be enabled, and
+     * SuppleMemoryCallbacks.allocate must allocate with VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. */
+    SUPPLE_CONTEXT_RAY_TRACING = 32
 } SuppleContextFlags;
 
 /** A piece of the host's device memory. */
@@ -261,8 +272,10 @@ typedef struct SuppleMemory {
 typedef struct SuppleMemoryCallbacks {
     /** Fills out and returns VK_SUCCESS, or returns an error of vkAllocateMemory. The memory is for buffers (linear).
      * Its type must be in requirements->memoryTypeBits and have all of `required` and, if possible, `preferred`. What
-     * is mapped is required to be HOST_COHERENT. If `memory` or a needed `mapped` is null in spite of VK_SUCCESS, the
-     * call that asked for memory fails with SUPPLE_ERROR_ARGUMENT, and `free` is called.
+     * is mapped is required to be HOST_COHERENT. If the context has SUPPLE_CONTEXT_RAY_TRACING or _SHARED_DISPATCHES,
+     * buffers have addresses: vkAllocateMemory needs VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT then. If `memory` or a
+     * needed `mapped` is null in spite of VK_SUCCESS, the call that asked for memory fails with SUPPLE_ERROR_ARGUMENT,
+     * and `free` is called.
      *
      * name is for the host's statistics, and valid during the call. It is "supple block" for a block
      * (SuppleContextDesc.memoryBlockSize). Else it is the name of the first buffer in the memory, and says whose it is:
@@ -270,7 +283,8 @@ typedef struct SuppleMemoryCallbacks {
      *   "supple tasks", "supple tasks staging"; if a recording has had hashes, "supple hashes" and "supple hashes, read
      *   back";
      * - asset: "supple skin tables", "supple vertices of a piece", "supple surface tables", "supple clip tables";
-     * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices";
+     * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices" (and
+     * those for ray tracing);
      * - its boxes, for the host: "supple bounds, read back";
      * - its instances: "supple poses", "supple user data staging", "supple playback", "supple playback staging";
      * - view: "supple view", "supple view staging", "supple view statistics", "supple view, grid indices".
@@ -919,10 +933,13 @@ typedef struct SuppleFragmentsOptions {
     SuppleFragmentRules rules;
 } SuppleFragmentsOptions;
 
-/** Layout of a surface vertex. Positions have the same bits in both. */
+/** Layout of a surface vertex. Positions have the same bits in all. */
 typedef enum SuppleVertexFormat {
     SUPPLE_VERTEX_16 = 0, /**< float3 position, octahedral normal in 2 x snorm16 (x in the low half) */
     SUPPLE_VERTEX_24 = 1, /**< float3 position, float3 normal */
+    /** float3 position alone: for rays, physics and depth. It costs less to evaluate. Not for views, and not with
+     * SUPPLE_GROUP_TANGENTS. */
+    SUPPLE_VERTEX_12 = 2,
     SUPPLE_VERTEX_MAX_ENUM = 0x7FFFFFFF
 } SuppleVertexFormat;
 
@@ -1032,7 +1049,12 @@ typedef enum SuppleGroupFlags {
      * time that frames leave out; suppleTeleport keeps how they move. All visible instances are posed, in sight or not,
      * so that cameras change nothing. Device memory for an instance: 64 bytes for each vertex that jiggles, 768, 9
      * times the matrices of all nodes, twice what is played, 8 poses. It does not go with SUPPLE_GROUP_UPDATE_RATES. */
-    SUPPLE_GROUP_SOFT = 16384
+    SUPPLE_GROUP_SOFT = 16384,
+    /** Groups without a view, in a context with SUPPLE_CONTEXT_RAY_TRACING: the host may build acceleration structures
+     * from the surface vertices (suppleGetRayGeometry). Grids have 12 bytes of indices more for each triangle of an
+     * instance, which all instances share. suppleSetRate takes no other rate than the group's. To trace what a view
+     * draws, let a group with this flag follow its group (SuppleGroupDesc.instancesOf): docs/ray_tracing.md. */
+    SUPPLE_GROUP_RAY_TRACING = 32768
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
@@ -1119,9 +1141,9 @@ SUPPLE_API SuppleResult suppleDestroyGroup(SuppleContext context, SuppleGroup gr
 SUPPLE_API SuppleResult suppleSetCapacity(SuppleContext context, SuppleGroup group, uint32_t capacity);
 /** Changes the rate of all surfaces from the next suppleRecord on. Call suppleGetGridOutput again after it. rate must
  * be 1 to the rate that the group was created with. Groups of FRAGMENTS, BLEND or POLYGONS, or with
- * SUPPLE_GROUP_INDEXED_MESH, cannot change it: they take only the rate that they were created with. CATMULL_CLARK
- * rounds it as it does SuppleGroupDesc.rate. Groups with levels take none. If one surface of the group cannot change
- * it, none does; only POLYGONS beside other schemes has no say. */
+ * SUPPLE_GROUP_INDEXED_MESH or _RAY_TRACING, cannot change it: they take only the rate that they were created with.
+ * CATMULL_CLARK rounds it as it does SuppleGroupDesc.rate. Groups with levels take none. If one surface of the group
+ * cannot change it, none does; only POLYGONS beside other schemes has no say. */
 SUPPLE_API SuppleResult suppleSetRate(SuppleContext context, SuppleGroup group, uint32_t rate);
 
 /* ---------------------------------------------------------------------------------------------------- instances */
@@ -1765,6 +1787,7 @@ SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSiz
 #include "supple_playback.h"  /* IWYU pragma: export */
 #include "supple_points.h"    /* IWYU pragma: export */
 #include "supple_prepare.h"   /* IWYU pragma: export */
+#include "supple_rays.h"      /* IWYU pragma: export */
 #include "supple_recording.h" /* IWYU pragma: export */
 #include "supple_view.h"      /* IWYU pragma: export */
 #endif

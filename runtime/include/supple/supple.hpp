@@ -491,6 +491,11 @@ public:
         out = sized<SuppleGridOutput>();
         return suppleGetGridOutput(context_, handle_, surface, &out);
     }
+    /// With SUPPLE_GROUP_RAY_TRACING: what acceleration structures are built from.
+    [[nodiscard]] SuppleResult rayGeometry(SuppleRayGeometry& out, uint32_t surface = 0) const {
+        out = sized<SuppleRayGeometry>();
+        return suppleGetRayGeometry(context_, handle_, surface, &out);
+    }
     [[nodiscard]] SuppleResult levelOutput(SuppleLevelOutput& out, uint32_t surface = 0) const {
         out = sized<SuppleLevelOutput>();
         return suppleGetLevelOutput(context_, handle_, surface, &out);
