@@ -102,6 +102,17 @@ std::string shortNumber(double value) {
     return text;
 }
 
+bool isUtf8(std::string_view text) {
+    while (!text.empty()) {
+        const CodePoint first = firstOf(text);
+        if (first.code == 0xFFFD && first.bytes == 1) {
+            return false;
+        }
+        text.remove_prefix(first.bytes);
+    }
+    return true;
+}
+
 std::string oneLine(std::string_view text, char instead) {
     std::string line;
     line.reserve(text.size());

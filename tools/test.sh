@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 . tools/packages.sh
 
 jobs=$(nproc)
-install_missing "${supple_packages[@]}" "${supple_test_packages[@]}"
+install_missing "${supple_packages[@]}" "${supple_test_packages[@]}" "${supple_windows_packages[@]}"
 # npm_package VARIABLE NAME VERSION: exports the package's folder. Without npm or its registry the tests that need it say that
 # they were left out.
 npm_package() {
@@ -22,6 +22,8 @@ npm_package SUPPLE_GLTF_VALIDATOR gltf-validator 2.0.0-dev.3.10
 npm_package SUPPLE_THREE three 0.187.0
 # Without its source package the tests of KTX2 say that they were left out.
 tools/basisu.sh || echo "Textures in KTX2 are left out: Basis Universal could not be fetched" >&2
+# Without these the test mingw builds the library alone, and windows_bakes says that it was left out.
+tools/windows_libraries.sh vulkan zlib png jpeg || echo "supple.exe is left out: its libraries could not be built" >&2
 # demo.sh may have configured without the tests.
 cmake --preset release -DSUPPLE_BUILD_TESTS=ON
 cmake --build --preset release -j "$jobs"
