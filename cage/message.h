@@ -23,7 +23,6 @@ namespace supple::cage {
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 /// Three significant digits.
 [[nodiscard]] std::string shortNumber(double value);
-[[nodiscard]] bool isUtf8(std::string_view text);
 /// Messages are one line that reads as it stands, whatever a file calls its parts: `instead` takes the place of control
 /// characters, of those that turn the direction of text or cannot be seen, and of bytes that are no UTF-8.
 [[nodiscard]] std::string oneLine(std::string_view text, char instead = '?');

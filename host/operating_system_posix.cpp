@@ -33,7 +33,7 @@ Result<int> endOf(pid_t child, const std::string& command, uint32_t timeout) {
             kill(child, SIGKILL);
             waitpid(child, &status, 0);
             return Error{ErrorCode::asset,
-                         command + ": not done after " + std::to_string(timeout) + " s (--timeout), and ended"};
+                         command + ": not done after " + std::to_string(timeout) + " s, the limit, and ended"};
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }

@@ -88,14 +88,16 @@ std::vector<std::string> utf8Arguments(int argc, char** argv) {
 }
 
 StandardStreams::StandardStreams() {
-    std::fflush(stdout);
-    _setmode(_fileno(stdout), _O_BINARY);
-    if (isTerminal(stdout)) {
+    for (std::FILE* const stream : {stdout, stderr}) {
+        std::fflush(stream);
+        _setmode(_fileno(stream), _O_BINARY);
+    }
+    if (isTerminal(stdout) || isTerminal(stderr)) {
         outputState_ = static_cast<long>(GetConsoleOutputCP());
         SetConsoleOutputCP(CP_UTF8);
     }
     DWORD mode = 0;
-    if (isTerminal(stderr) && GetConsoleMode(handleOf(stderr), &mode) != 0) {
+    if (GetConsoleMode(handleOf(stderr), &mode) != 0) {
         errorState_ = static_cast<long>(mode);
         SetConsoleMode(handleOf(stderr), mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
     }
@@ -158,7 +160,7 @@ Status runCommand(const std::string& command, const std::vector<std::string>& ar
         TerminateProcess(child.get(), 1);
         WaitForSingleObject(child.get(), INFINITE);
         return Error{ErrorCode::asset,
-                     command + ": not done after " + std::to_string(timeout) + " s (--timeout), and ended"};
+                     command + ": not done after " + std::to_string(timeout) + " s, the limit, and ended"};
     }
     DWORD code = 0;
     if (GetExitCodeProcess(child.get(), &code) == 0) {

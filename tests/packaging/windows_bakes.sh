@@ -23,10 +23,10 @@ trap '"$wine" wineboot -k >/dev/null 2>&1; rm -rf "$WINEPREFIX"' EXIT
 "$wine" wineboot -i >/dev/null 2>&1 || fail "wine cannot make its folder"
 echo "${SECONDS}s  wine is ready"
 
-for program in static_c build/samples/minimal/supple_minimal build/samples/c_host/supple_c_host; do
+for program in package_{OFF,ON}/consumer_{c,cpp} build/samples/minimal/supple_minimal build/samples/c_host/supple_c_host; do
     "$wine" "$windows/$program.exe" >log 2>&1 || { cat log; fail "$program.exe"; }
 done
-echo "${SECONDS}s  the static host, minimal and c_host run"
+echo "${SECONDS}s  hosts of the static library and of the DLL, minimal and c_host run"
 
 characters=(samples/assets/{helmet,pip,pip_quads,wren}.glb tests/data/drivers/arm.glb tests/data/jiggle/belly.glb)
 schemes=(pm catmull-clark blend fragments)
@@ -38,8 +38,9 @@ for file in "${characters[@]}"; do
     for scheme in "${schemes[@]}"; do
         for mapping in narrow wide; do
             arguments=(bake "$input" --scheme "$scheme" --rate 2 --mapping "$mapping" --hash -o)
-            "$native" "${arguments[@]}" "native 字.glb" >native.txt 2>&1 || true
+            "$native" "${arguments[@]}" "native 字.glb" >native.txt 2>&1 &
             "$wine" "$windows/build/bin/supple.exe" "${arguments[@]}" "windows 字.glb" >windows.txt 2>&1 || true
+            wait $! || true
             grep -q '[0-9a-f]\{16\}' native.txt || { cat native.txt; fail "native: ${arguments[*]}"; }
             cmp native.txt windows.txt || { diff native.txt windows.txt; fail "what is printed differs: ${arguments[*]}"; }
             cmp "native 字.glb" "windows 字.glb" || fail "files differ: ${arguments[*]}"

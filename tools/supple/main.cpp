@@ -4,12 +4,13 @@
 #include "host/operating_system.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <supple/supple.h>
 #include <system_error>
+#include <vector>
 
 namespace {
 
