@@ -29,7 +29,7 @@ done
 echo "${SECONDS}s  hosts of the static library and of the DLL, minimal and c_host run"
 
 characters=(samples/assets/{helmet,pip,pip_quads,wren}.glb tests/data/drivers/arm.glb tests/data/jiggle/belly.glb)
-schemes=(pm catmull-clark blend fragments)
+schemes=(pm catmull-clark loop fragments)
 same=0
 for file in "${characters[@]}"; do
     # A name that no code page of Windows has as a whole.
