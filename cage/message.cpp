@@ -1,5 +1,7 @@
 #include "cage/message.h"
 
+#include "cage/utf8.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -8,35 +10,6 @@
 
 namespace supple::cage {
 namespace {
-
-struct CodePoint {
-    uint32_t code;
-    size_t bytes;
-};
-
-/// 0xFFFD and one byte for what is no UTF-8.
-CodePoint firstOf(std::string_view text) {
-    constexpr CodePoint kNone{0xFFFD, 1};
-    const auto at = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = at(0);
-    if (first < 0x80) {
-        return {first, 1};
-    }
-    const size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4 || text.size() < bytes) {
-        return kNone;
-    }
-    uint32_t code = first & (0x7Fu >> bytes);
-    for (size_t i = 1; i < bytes; ++i) {
-        if ((at(i) & 0xC0) != 0x80) {
-            return kNone;
-        }
-        code = code << 6 | (at(i) & 0x3Fu);
-    }
-    constexpr uint32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
-    const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-    return code < kSmallest[bytes] || surrogate || code > 0x10FFFF ? kNone : CodePoint{code, bytes};
-}
 
 /// Neither a control character nor one that turns what stands beside it round, or cannot be seen.
 bool isReadable(uint32_t code) {
@@ -106,7 +79,7 @@ std::string oneLine(std::string_view text, char instead) {
     std::string line;
     line.reserve(text.size());
     while (!text.empty()) {
-        const CodePoint next = firstOf(text);
+        const CodePoint next = firstCodePoint(text);
         if (isReadable(next.code)) {
             line += text.substr(0, next.bytes);
         } else {

@@ -2,6 +2,7 @@
 # ${supple_SHADER_DIR} to find what Supple has for hosts. A shader becomes the header "shaders/<file with . as _>.h" of TARGET,
 # which defines `const uint32_t <that name>[]`. A path may end in +NAME: compiled with the macro NAME, which the name ends in.
 function(supple_host_shaders target)
+    find_program(SUPPLE_GLSLANG NAMES glslangValidator glslang REQUIRED) # not looked for with SUPPLE_COMPILED_SHADERS
     set(directory ${CMAKE_CURRENT_BINARY_DIR}/generated)
     file(MAKE_DIRECTORY ${directory}/shaders)
     foreach(entry IN LISTS ARGN)

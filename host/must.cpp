@@ -1,5 +1,6 @@
 #include "host/must.h"
 
+#include "base/utf8_path.h"
 #include "host/context.h"
 #include "host/frames.h"
 #include "host/jobs.h"
@@ -32,7 +33,7 @@ void must(SuppleResult result, const char* what) {
 }
 
 std::vector<char> mustReadFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file(utf8Path(path), std::ios::binary);
     if (!file)
         fail(path + ": cannot be read");
     return {std::istreambuf_iterator<char>(file), {}};

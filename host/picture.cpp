@@ -1,11 +1,13 @@
 #include "host/picture.h"
 
+#include "base/utf8_path.h"
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <memory>
+#include <fstream>
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
@@ -19,15 +21,6 @@
 #endif
 
 namespace supple::host {
-
-namespace {
-
-struct FileCloser {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, FileCloser>;
-
-} // namespace
 
 Picture Picture::blank(uint32_t width, uint32_t height) {
     Picture picture{width, height, std::vector<uint8_t>(size_t{width} * height * 4)};
@@ -125,13 +118,16 @@ Picture pictureWithAlpha(const Picture& overBlack, const Picture& overWhite) {
 }
 
 Result<Picture> readPng(const std::string& path) {
-    File file(std::fopen(path.c_str(), "rb"));
+    errno = 0;
+    std::ifstream file(utf8Path(path), std::ios::binary);
     if (!file)
         return Error{ErrorCode::io, path + ": " + std::strerror(errno)};
     std::vector<std::byte> bytes;
-    std::byte chunk[65536];
-    for (size_t count = 0; (count = std::fread(chunk, 1, sizeof chunk, file.get())) > 0;)
-        bytes.insert(bytes.end(), chunk, chunk + count);
+    char chunk[65536];
+    while (file.read(chunk, sizeof chunk), file.gcount() > 0) {
+        const auto* first = reinterpret_cast<const std::byte*>(chunk);
+        bytes.insert(bytes.end(), first, first + file.gcount());
+    }
     return decodePicture(bytes, path);
 }
 

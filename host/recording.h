@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/result.h"
+#include "base/utf8_path.h"
 
 #include <fstream>
 #include <memory>
@@ -18,7 +19,7 @@ public:
                                                                   uint32_t flags = 0);
 
 private:
-    explicit Recording(const std::string& path) : file_(path, std::ios::binary) {}
+    explicit Recording(const std::string& path) : file_(utf8Path(path), std::ios::binary) {}
     static int write(const void* bytes, size_t count, void* user);
 
     std::ofstream file_;

@@ -1,9 +1,11 @@
 #include "host/whole_file.h"
 
+#include "base/utf8_path.h"
+#include "host/operating_system.h"
+
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
 namespace supple::host {
@@ -15,7 +17,7 @@ namespace {
 /// A device or a pipe.
 bool isSpecial(const std::string& path) {
     std::error_code error;
-    const fs::file_status target = fs::status(path, error);
+    const fs::file_status target = fs::status(utf8Path(path), error);
     return fs::exists(target) && !fs::is_regular_file(target) && !fs::is_directory(target);
 }
 
@@ -23,7 +25,7 @@ bool isSpecial(const std::string& path) {
 
 bool isRefusedLink(const std::string& path) {
     std::error_code error;
-    return !isSpecial(path) && fs::is_symlink(fs::symlink_status(path, error));
+    return !isSpecial(path) && fs::is_symlink(fs::symlink_status(utf8Path(path), error));
 }
 
 WholeFile::WholeFile(std::string path) : path_(std::move(path)) {
@@ -33,10 +35,10 @@ WholeFile::WholeFile(std::string path) : path_(std::move(path)) {
     }
     const bool special = isSpecial(path_);
     if (!special) {
-        temporary_ = path_ + "." + std::to_string(getpid()) + ".tmp";
+        temporary_ = path_ + "." + std::to_string(processId()) + ".tmp";
     }
     errno = 0;
-    stream_.open(special ? path_ : temporary_, std::ios::binary | std::ios::trunc);
+    stream_.open(utf8Path(special ? path_ : temporary_), std::ios::binary | std::ios::trunc);
     if (!stream_) {
         refusal_ = "cannot be written" + (errno != 0 ? ": " + std::generic_category().message(errno) : "");
         temporary_.clear();
@@ -46,7 +48,7 @@ WholeFile::WholeFile(std::string path) : path_(std::move(path)) {
 WholeFile::~WholeFile() {
     if (!temporary_.empty()) {
         std::error_code ignored;
-        fs::remove(temporary_, ignored);
+        fs::remove(utf8Path(temporary_), ignored);
     }
 }
 
@@ -70,7 +72,7 @@ Status WholeFile::close() {
     if (!stream_) {
         error = {errno, std::generic_category()};
     } else if (!temporary_.empty()) {
-        fs::rename(temporary_, path_, error);
+        fs::rename(utf8Path(temporary_), utf8Path(path_), error);
     }
     if (!stream_ || error) {
         return Error{ErrorCode::io, path_ + ": cannot be written" + (error ? ": " + error.message() : "")};

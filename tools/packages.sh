@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2034
-# What Supple needs of Debian 12 (bookworm) or a relative of it. The one list; sourced by demo.sh, test.sh and package.sh.
+# What Supple needs of Debian 12 (bookworm) or a relative of it. The one list; sourced by demo.sh, test.sh, windows.sh and package.sh.
 
 # To build and run.
 supple_packages=(
@@ -19,9 +19,13 @@ supple_test_packages=(
     qml6-module-qtquick-templates qml6-module-qtqml-workerscript
     abigail-tools pkg-config
     doxygen python3
-    g++-mingw-w64-x86-64-posix
     clang libc++-dev libc++abi-dev
     blender python3-numpy chromium
+)
+# To build for Windows, and to run that here.
+supple_windows_packages=(
+    g++-mingw-w64-x86-64-posix dpkg-dev
+    wine64 xvfb xauth
 )
 # To make Debian packages: tools/package.sh, not the tests.
 supple_deb_packages=(

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 . tools/packages.sh
 
 jobs=$(nproc)
-install_missing "${supple_packages[@]}" "${supple_test_packages[@]}"
+install_missing "${supple_packages[@]}" "${supple_test_packages[@]}" "${supple_windows_packages[@]}"
 # npm_package VARIABLE NAME VERSION: exports the package's folder. Without npm or its registry the tests that need it say that
 # they were left out.
 npm_package() {
@@ -24,6 +24,8 @@ npm_package SUPPLE_THREE three 0.187.0
 tools/basisu.sh || echo "Textures in KTX2 are left out: Basis Universal could not be fetched" >&2
 # Without it the tests of ray queries say that they were left out.
 tools/lavapipe.sh || echo "Ray queries are left out: lavapipe of Debian's backports could not be fetched" >&2
+# Without these the test mingw builds the library alone, and windows_bakes says that it was left out.
+tools/windows_libraries.sh vulkan zlib png jpeg || echo "supple.exe is left out: its libraries could not be built" >&2
 # demo.sh may have configured without the tests.
 cmake --preset release -DSUPPLE_BUILD_TESTS=ON
 cmake --build --preset release -j "$jobs"

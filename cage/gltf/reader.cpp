@@ -1,5 +1,6 @@
 #include "cage/gltf/reader.h"
 
+#include "base/utf8_path.h"
 #include "cage/bind_space.h"
 #include "cage/clip_set.h"
 #include "cage/finish.h"
@@ -252,15 +253,15 @@ Result<Character> readGltf(std::span<const std::byte> bytes, const std::string& 
 Result<Character> readGltfFile(const std::string& path, const GltfOptions& options) {
     std::string name = path;
     try {
-        const std::filesystem::path file(path);
+        const std::filesystem::path file = utf8Path(path);
         if (file.has_filename()) {
-            name = file.filename().string();
+            name = utf8Text(file.filename());
         }
-        const Result<std::vector<std::byte>> bytes = gltf::readRegularFile(path);
+        const Result<std::vector<std::byte>> bytes = gltf::readRegularFile(file);
         if (!bytes) {
             return failure(ErrorCode::io, name, "file: " + bytes.error().message + ": " + quoted(path));
         }
-        const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
+        const std::string folder = file.has_parent_path() ? utf8Text(file.parent_path()) : ".";
         return readGltf(*bytes, name, folder, options);
     } catch (const std::bad_alloc&) {
         return failure(ErrorCode::hostMemory, name, "file: out of memory");

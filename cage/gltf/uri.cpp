@@ -1,12 +1,14 @@
 #include "cage/gltf/uri.h"
 
+#include "base/utf8_path.h"
+#include "cage/path_name.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <system_error>
 #include <utility>
@@ -146,7 +148,7 @@ Result<DataUri> decodeDataUri(std::string_view uri) {
     return result;
 }
 
-Result<std::vector<std::byte>> readRegularFile(const std::string& path) {
+Result<std::vector<std::byte>> readRegularFile(const std::filesystem::path& path) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
     if (status.type() == std::filesystem::file_type::not_found) {
@@ -192,10 +194,6 @@ Result<std::string> relativePath(std::string_view uri) {
     if (path.front() == '/' || path.find('\\') != std::string::npos) {
         return malformed("only relative paths with forward slashes are allowed");
     }
-    const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
-    if (const auto found = std::find_if(path.begin(), path.end(), isControl); found != path.end()) {
-        return malformed(*found == '\0' ? "path contains a NUL character" : "path contains a control character");
-    }
     // A host that looks a path up as it stands must find the same file by every way of writing it.
     std::string plain;
     for (size_t begin = 0; begin <= path.size();) {
@@ -203,6 +201,9 @@ Result<std::string> relativePath(std::string_view uri) {
         const std::string_view name = std::string_view(path).substr(begin, end - begin);
         if (name == "..") {
             return malformed("path leaves the asset's folder");
+        }
+        if (const std::string why = whyRefusedName(name); !why.empty()) {
+            return malformed(why);
         }
         if (!name.empty() && name != ".") {
             plain.append(plain.empty() ? "" : "/").append(name);
@@ -220,11 +221,11 @@ Result<std::vector<std::byte>> readBelow(const std::string& baseDirectory, const
         return malformed("external files are not allowed for an asset read from memory");
     }
     std::error_code code;
-    const auto base = std::filesystem::canonical(baseDirectory, code);
+    const auto base = std::filesystem::canonical(utf8Path(baseDirectory), code);
     if (code) {
         return unreadable("asset folder: " + code.message());
     }
-    const auto whole = std::filesystem::canonical(base / path, code);
+    const auto whole = std::filesystem::canonical(base / utf8Path(path), code);
     if (code) {
         return unreadable(code == std::errc::no_such_file_or_directory ? "no such file" : code.message());
     }
@@ -233,7 +234,7 @@ Result<std::vector<std::byte>> readBelow(const std::string& baseDirectory, const
         return malformed("path leaves the asset's folder");
     }
     (void)wholeMiddle;
-    return readRegularFile(whole.string());
+    return readRegularFile(whole);
 }
 
 } // namespace supple::cage::gltf

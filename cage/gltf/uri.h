@@ -5,6 +5,7 @@
 #include "base/result.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +23,7 @@ struct DataUri {
 [[nodiscard]] Result<DataUri> decodeDataUri(std::string_view uri);
 
 /// The path a URI means, percent-decoded, without "." and empty names; refuses schemes, absolute paths, "..",
-/// backslashes and control characters.
+/// backslashes, and the names of cage/path_name.h.
 [[nodiscard]] Result<std::string> relativePath(std::string_view uri);
 
 /// Reads a path from relativePath() below `baseDirectory`; refuses symbolic links that lead outside, and anything but
@@ -30,6 +31,6 @@ struct DataUri {
 [[nodiscard]] Result<std::vector<std::byte>> readBelow(const std::string& baseDirectory, const std::string& path);
 
 /// A whole regular file.
-[[nodiscard]] Result<std::vector<std::byte>> readRegularFile(const std::string& path);
+[[nodiscard]] Result<std::vector<std::byte>> readRegularFile(const std::filesystem::path& path);
 
 } // namespace supple::cage::gltf

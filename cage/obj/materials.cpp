@@ -4,6 +4,7 @@
 #include "cage/materials.h"
 #include "cage/obj/mtl.h"
 #include "cage/obj/text.h"
+#include "cage/path_name.h"
 
 #include <algorithm>
 #include <cctype>
@@ -40,9 +41,6 @@ std::string plainName(std::string_view name) {
 /// those, the last name counts.
 Result<std::string> pathBeside(const std::string& folder, std::string_view given) {
     std::string name = plainName(given);
-    if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; })) {
-        return notFound("path contains a control character");
-    }
     const size_t colon = name.find(':');
     const bool hasDrive = colon == 1 && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
     if (colon != std::string::npos && !hasDrive) {
@@ -57,6 +55,9 @@ Result<std::string> pathBeside(const std::string& folder, std::string_view given
             const size_t end = std::min(path.find('/', begin), path.size());
             const std::string part = path.substr(begin, end - begin);
             begin = end + 1;
+            if (const std::string why = whyRefusedName(part); !why.empty()) {
+                return notFound(why);
+            }
             if (part == ".." && names.empty()) {
                 return notFound("path leaves the asset's folder");
             }

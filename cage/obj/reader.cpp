@@ -1,5 +1,6 @@
 #include "cage/obj/reader.h"
 
+#include "base/utf8_path.h"
 #include "cage/leniency.h"
 #include "cage/message.h"
 #include "cage/obj/build.h"
@@ -9,7 +10,6 @@
 #include "cage/single_joint.h"
 
 #include <exception>
-#include <filesystem>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -50,7 +50,7 @@ Result<Character> readObj(std::span<const std::byte> bytes, const std::string& n
         character.name = name;
         std::vector<PartCage> parts =
             readInto({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, options, character);
-        bindToOneJoint(parts, character, std::filesystem::path(name).stem().string());
+        bindToOneJoint(parts, character, utf8Text(utf8Path(name).stem()));
         finishCharacter(std::move(parts), options.finish, character);
         return character;
     } catch (const Refusal& refusal) {

@@ -1,8 +1,7 @@
-#define _POSIX_C_SOURCE 200809L
-
 #include "host_callbacks.h"
 
-#include <pthread.h>
+#include "host_threads.h"
+
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +13,7 @@ typedef struct Header {
     size_t size;
 } Header;
 
-static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+static HostMutex mutex = HOST_MUTEX_INITIALIZER;
 static HostCallbackCounts counts;
 
 static Header* headerOf(void* pointer) {
@@ -37,11 +36,11 @@ static VKAPI_ATTR void* VKAPI_CALL hostAllocate(void* user, size_t size, size_t 
     address = ((uintptr_t)start + sizeof(Header) + alignment - 1) / alignment * alignment;
     headerOf((void*)address)->start = start;
     headerOf((void*)address)->size = size;
-    pthread_mutex_lock(&mutex);
+    hostLock(&mutex);
     ++counts.allocations;
     ++counts.calls;
     counts.bytes += size;
-    pthread_mutex_unlock(&mutex);
+    hostUnlock(&mutex);
     return (void*)address;
 }
 
@@ -50,10 +49,10 @@ static VKAPI_ATTR void VKAPI_CALL hostFree(void* user, void* pointer) {
     if (pointer == NULL) {
         return;
     }
-    pthread_mutex_lock(&mutex);
+    hostLock(&mutex);
     --counts.allocations;
     counts.bytes -= headerOf(pointer)->size;
-    pthread_mutex_unlock(&mutex);
+    hostUnlock(&mutex);
     free(headerOf(pointer)->start);
 }
 
@@ -80,8 +79,8 @@ const VkAllocationCallbacks* hostCallbacks(void) {
 
 HostCallbackCounts hostCallbackCounts(void) {
     HostCallbackCounts result;
-    pthread_mutex_lock(&mutex);
+    hostLock(&mutex);
     result = counts;
-    pthread_mutex_unlock(&mutex);
+    hostUnlock(&mutex);
     return result;
 }

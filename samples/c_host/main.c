@@ -18,9 +18,9 @@
 #include "host_file.h"
 #include "host_jobs.h"
 #include "host_memory.h"
+#include "host_threads.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <string.h>
 
 #define FRAMES_IN_FLIGHT 2
@@ -203,7 +203,7 @@ static void copyFirstVertex(const Job* job, VkCommandBuffer commands, SuppleInst
 }
 
 /* Poses one group's instances and records its passes, beside the thread that does the same for the other group. */
-static void* recordCrowd(void* user) {
+static void recordCrowd(void* user) {
     Job* job = (Job*)user;
     Crowd* crowd = job->crowd;
     const uint32_t parity = (uint32_t)(job->frame % FRAMES_IN_FLIGHT);
@@ -239,7 +239,6 @@ static void* recordCrowd(void* user) {
     dependency.pMemoryBarriers = &toHost;
     vkCmdPipelineBarrier2(commands, &dependency);
     CHECK_VK(vkEndCommandBuffer(commands));
-    return NULL;
 }
 
 static void createCommands(const HostDevice* host, VkCommandPool* pool, VkCommandBuffer* commands) {
@@ -396,7 +395,7 @@ static void playFrame(const HostDevice* host, SuppleContext context, Job* jobs, 
     VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO};
     VkCommandBuffer order[1 + THREADS];
-    pthread_t threads[THREADS];
+    HostThread threads[THREADS];
     int i;
 
     CHECK_VK(vkResetCommandPool(host->device, uploadPool, 0));
@@ -407,14 +406,14 @@ static void playFrame(const HostDevice* host, SuppleContext context, Job* jobs, 
     order[0] = uploads;
 
     for (i = 0; i < THREADS; ++i) {
-        if (pthread_create(&threads[i], NULL, recordCrowd, &jobs[i]) != 0) {
+        if (!hostStartThread(&threads[i], recordCrowd, &jobs[i])) {
             fprintf(stderr, "no thread\n");
             exit(1);
         }
         order[1 + i] = jobs[i].commands[parity];
     }
     for (i = 0; i < THREADS; ++i) {
-        pthread_join(threads[i], NULL);
+        hostJoinThread(&threads[i]);
     }
     submit.commandBufferCount = 1 + THREADS;
     submit.pCommandBuffers = order;

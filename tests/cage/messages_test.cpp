@@ -78,7 +78,10 @@ TEST(Messages, HostsAreAskedForPlainPaths) {
     EXPECT_NE(warningOf("a%7fb.png").find("path contains a control character"), std::string::npos);
     EXPECT_NE(warningOf("a/%2e%2E/b.png").find("path leaves the asset's folder"), std::string::npos);
     EXPECT_NE(warningOf("./").find("empty path"), std::string::npos);
+    EXPECT_NE(warningOf("a%FFb.png").find("path is not UTF-8"), std::string::npos);
     EXPECT_TRUE(asked.empty());
+    warningOf("%C3%BC/\xE5\xAD\x97.png");
+    EXPECT_EQ(asked, std::vector<std::string>{"\xC3\xBC/\xE5\xAD\x97.png"});
 }
 
 } // namespace

@@ -57,7 +57,7 @@ LIBRARY = ["base/", "shaders/", "gpu/", "cage/", "skinning/", "surface/", "cpu/"
 FOREIGN = {
     ("vulkan/",): ["gpu/", "skinning/", "surface/", "runtime/"],  # a character knows nothing of the GPU
     ("tiny_gltf", "nlohmann/", "meshoptimizer", "draco/"): ["cage/gltf/"],
-    ("fstream", "filesystem", "iostream"): ["cage/gltf/", "cage/obj/"],  # nothing else reads files or prints
+    ("fstream", "filesystem", "iostream"): ["cage/gltf/", "cage/obj/", "base/utf8_path."],  # nothing else reads files or prints
     ("chrono", "ctime"): ["runtime/timings."],
     ("GLFW/", "SDL", "imgui", "backends/", "EGL/", "GL/", "unistd", "windows."): [],  # no windows, no system
 }

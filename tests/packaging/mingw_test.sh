@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
-# Cross-compiles the library for Windows, static and DLL, and links hosts in C and C++ with either; runs them where wine is.
+# Cross-compiles the library for Windows, static and DLL, and links hosts in C and C++ with either, which find the package. The
+# supple command and the samples minimal and c_host come along where tools/windows_libraries.sh has built what they link.
+# windows_bakes.sh runs all of them.
 #   mingw_test.sh BUILD SOURCE WORK
 # Its shaders are those of BUILD.
 set -euo pipefail
@@ -20,13 +22,25 @@ if command -v ccache >/dev/null && [ -z "${SUPPLE_NO_CCACHE:-}" ]; then
     export CCACHE_BASEDIR=$source CCACHE_NOHASHDIR=1
 fi
 
+tools=OFF
+targets=(supple supple_other)
+libraries=${SUPPLE_WINDOWS_LIBRARIES:-$source/build/windows-libraries}
+if [ -e "$libraries/built/jpeg" ]; then
+    tools=ON
+    targets+=(supple_command supple_minimal supple_c_host)
+else
+    echo "the command is left out: tools/windows_libraries.sh was not run"
+fi
 # Without any optimization the objects are seven times as large, and linking COFF takes minutes.
 quietly cmake -S "$source" -B "$work/build" -G Ninja --toolchain "$source/cmake/mingw-w64.cmake" "${launcher[@]}" \
-    -DSUPPLE_WITH_MESHOPT=OFF -DSUPPLE_WITH_DRACO=OFF -DSUPPLE_BUILD_BOTH=ON -DSUPPLE_BUILD_TOOLS=OFF -DSUPPLE_BUILD_TESTS=OFF \
+    -DSUPPLE_WITH_MESHOPT=OFF -DSUPPLE_WITH_DRACO=OFF -DSUPPLE_BUILD_BOTH=ON -DSUPPLE_BUILD_TOOLS=$tools -DSUPPLE_BUILD_TESTS=OFF \
+    -DSUPPLE_WINDOWS_LIBRARIES="$libraries" -DCMAKE_EXE_LINKER_FLAGS=-static -DCMAKE_SHARED_LINKER_FLAGS=-static \
     -DSUPPLE_COMPILED_SHADERS="$build/generated" -DCMAKE_CXX_FLAGS=-O1 -DSUPPLE_UNITY_BATCH=30
-quietly cmake --build "$work/build" --target supple supple_other
+quietly cmake --build "$work/build" --target "${targets[@]}"
 rm -rf "$work/prefix"
-quietly cmake --install "$work/build" --prefix "$work/prefix"
+for component in runtime development; do
+    quietly cmake --install "$work/build" --prefix "$work/prefix" --component $component
+done
 prefix=$work/prefix
 exports=$(x86_64-w64-mingw32-objdump -p "$prefix/bin/libsupple.dll" |
     sed -n '/\[Ordinal\/Name Pointer\] Table/,/^$/p' | awk '/\[ *[0-9]+\]/ {print $NF}')
@@ -35,14 +49,13 @@ strangers=$(grep -v '^supple[A-Z]' <<<"$exports" || true)
 [[ $exports == *suppleCreateContext* ]] || fail "the DLL exports nothing"
 echo "${SECONDS}s  built, exports are supple's alone"
 
-include=(-I"$prefix/include" -I"$work/build/mingw-headers/include" -static-libgcc)
-c=(x86_64-w64-mingw32-gcc-posix -std=c99 -pedantic -Wall -Wextra -Werror "$source/tests/packaging/consumer/main.c")
-cpp=(x86_64-w64-mingw32-g++-posix -std=c++17 -pedantic -Wall -Wextra -Werror "$source/tests/packaging/consumer/main.cpp")
-quietly "${c[@]}" "${include[@]}" -DSUPPLE_SHARED -o "$work/shared_c.exe" "$prefix/lib/libsupple.dll.a"
-quietly "${cpp[@]}" "${include[@]}" -DSUPPLE_SHARED -o "$work/shared_cpp.exe" "$prefix/lib/libsupple.dll.a"
-quietly "${c[@]}" "${include[@]}" -o "$work/static_c.exe" "$prefix/lib/libsupple.a" -static -lstdc++
-echo "${SECONDS}s  hosts linked, DLL and static"
-if command -v wine >/dev/null; then
-    wine "$work/static_c.exe" || fail "static_c.exe"
-fi
+for shared in OFF ON; do
+    at=$work/package_$shared
+    rm -rf "$at"
+    quietly cmake -S "$source/tests/packaging/consumer" -B "$at" -G Ninja --toolchain "$source/cmake/mingw-w64.cmake" \
+        -DHOW=package "-DLANGUAGES=C;CXX" -DCMAKE_PREFIX_PATH="$prefix" -Dsupple_SHARED=$shared -DCMAKE_EXE_LINKER_FLAGS=-static
+    quietly cmake --build "$at"
+done
+cp "$prefix/bin/libsupple.dll" "$work/package_ON"
+echo "${SECONDS}s  hosts found the package and were linked, DLL and static"
 echo "passed"

@@ -1,6 +1,7 @@
 #include "tools/bench/bench.h"
 
 #include "host/context.h"
+#include "host/operating_system.h"
 #include "tools/bench/agreement.h"
 #include "tools/bench/avx2_evaluation.h"
 #include "tools/bench/classical.h"
@@ -582,8 +583,8 @@ Status Run::pipelines(const BenchCage& cage, SuppleScheme scheme) {
 
 void disableDriverCaches() {
     // Mesa's, and NVIDIA's which is OpenGL's and Vulkan's alike. What the user has set stands.
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
-    setenv("__GL_SHADER_DISK_CACHE", "0", 0);
+    host::setEnvironmentDefault("MESA_SHADER_CACHE_DISABLE", "true");
+    host::setEnvironmentDefault("__GL_SHADER_DISK_CACHE", "0");
 }
 
 Result<Json> runBench(host::Device& device, const tools::Machine& machine, const BenchOptions& options) {

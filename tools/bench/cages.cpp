@@ -1,5 +1,6 @@
 #include "tools/bench/cages.h"
 
+#include "base/utf8_path.h"
 #include "cage/formats/reader.h"
 #include "runtime/arrays/character_arrays.h"
 #include "surface/schemes.h"
@@ -122,7 +123,7 @@ Result<BenchCage> readCage(const std::string& path) {
     if (!file) {
         return file.error();
     }
-    return benchCage(std::filesystem::path(path).stem().string(), std::move(file->character));
+    return benchCage(utf8Text(utf8Path(path).stem()), std::move(file->character));
 }
 
 } // namespace supple::bench

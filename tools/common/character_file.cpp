@@ -1,5 +1,6 @@
 #include "tools/common/character_file.h"
 
+#include "base/utf8_path.h"
 #include "cage/formats/reader.h"
 #include "cage/repair.h"
 #include "runtime/cooked/file.h"
@@ -16,10 +17,10 @@ namespace {
 
 Result<std::vector<std::byte>> readFile(const std::string& path) {
     std::error_code error;
-    if (std::filesystem::is_directory(path, error)) {
+    if (std::filesystem::is_directory(utf8Path(path), error)) {
         return Error{ErrorCode::io, path + ": is a folder"};
     }
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream(utf8Path(path), std::ios::binary);
     if (!stream) {
         return Error{ErrorCode::io, path + ": cannot be opened"};
     }
@@ -40,8 +41,8 @@ Result<FileInMemory> load(const std::string& path) {
     if (!bytes) {
         return bytes.error();
     }
-    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
-    return FileInMemory{path, parent.empty() ? "." : parent.string(), std::move(*bytes)};
+    const std::filesystem::path parent = utf8Path(path).parent_path();
+    return FileInMemory{path, parent.empty() ? "." : utf8Text(parent), std::move(*bytes)};
 }
 
 /// The character of a cooked file.

@@ -1,5 +1,6 @@
 #include "tools/replay/replayer.h"
 
+#include "base/utf8_path.h"
 #include "runtime/cooked/file.h"
 #include "runtime/recording/recorder.h"
 
@@ -26,7 +27,7 @@ Result<std::vector<std::byte>> cookedCharacter(const std::string& name, std::spa
     asset.name = name.c_str();
     asset.bytes = bytes.data();
     asset.byteCount = bytes.size();
-    const std::string folder = std::filesystem::path(name).parent_path().string();
+    const std::string folder = utf8Text(utf8Path(name).parent_path());
     asset.baseDirectory = folder.empty() ? "." : folder.c_str();
     SupplePrepareDesc desc{};
     desc.structSize = sizeof desc;
@@ -332,7 +333,7 @@ Status Replayer::play(const RecordingEvent& event) {
 }
 
 Replayer::Character Replayer::ofSameName(const std::string& name) {
-    const auto fileName = [](const std::string& path) { return std::filesystem::path(path).filename(); };
+    const auto fileName = [](const std::string& path) { return utf8Path(path).filename(); };
     const auto found = std::find_if(characters_.begin(), characters_.end(), [&](const auto& known) {
         return !known.second.bytes.empty() && fileName(known.second.name) == fileName(name);
     });

@@ -1,4 +1,5 @@
 // supple bake: the evaluated surface for other programs, as OBJ, PLY or GLB; the patches behind it as JSON.
+#include "base/utf8_path.h"
 #include "host/whole_file.h"
 #include "tools/common/character_file.h"
 #include "tools/common/word_hash.h"
@@ -51,7 +52,7 @@ enum class BakeFormat { obj, ply, glb };
 
 /// By the ending of the file's name, whatever its case.
 std::optional<BakeFormat> bakeFormatOf(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
+    std::string ending = utf8Text(utf8Path(path).extension());
     for (char& letter : ending) {
         letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
     }

@@ -1,6 +1,7 @@
 // supple bench: the permanent benchmark (tools/bench) as a subcommand.
 #include "tools/bench/bench.h"
 
+#include "base/utf8_path.h"
 #include "tools/bench/check.h"
 #include "tools/bench/papers.h"
 #include "tools/bench/plot.h"
@@ -29,7 +30,7 @@ struct BenchFlags {
 };
 
 Result<Json> readResult(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream(utf8Path(path), std::ios::binary);
     if (!stream) {
         return Error{ErrorCode::io, path + ": cannot be opened"};
     }
@@ -45,9 +46,9 @@ Result<Json> readResult(const std::string& path) {
 
 Status writePlots(const Json& result, const std::string& folder) {
     std::error_code error;
-    std::filesystem::create_directories(folder, error);
+    std::filesystem::create_directories(utf8Path(folder), error);
     for (const bench::Picture& picture : bench::plotsOf(result)) {
-        Status status = writeTextFile((std::filesystem::path(folder) / picture.fileName).string(), picture.svg);
+        Status status = writeTextFile(utf8Text(utf8Path(folder) / utf8Path(picture.fileName)), picture.svg);
         if (!status) {
             return status;
         }

@@ -1,4 +1,5 @@
 // supple convert: any character file to a GLB that keeps its polygons, creases and seams. Needs no device.
+#include "base/utf8_path.h"
 #include "cage/normal_creases.h"
 #include "host/whole_file.h"
 #include "tools/common/character_file.h"
@@ -113,7 +114,7 @@ int runConvert(const ConvertOptions& options) {
 }
 
 std::string glbName(const std::string& text) {
-    return fs::path(text).extension() == ".glb" ? "" : text + " does not end in .glb";
+    return utf8Path(text).extension() == ".glb" ? "" : text + " does not end in .glb";
 }
 
 } // namespace

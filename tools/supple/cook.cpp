@@ -1,5 +1,6 @@
 // supple cook: a character file to a cooked file, which is loaded without parsing or building anything. Needs no
 // device.
+#include "base/utf8_path.h"
 #include "host/whole_file.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
@@ -162,17 +163,17 @@ std::string readingOf(const host::ReadOptions& reading) {
     add(!reading.variant.empty(), "variant " + reading.variant);
     add(!reading.clipFiles.empty(), "clips");
     for (const std::string& clips : reading.clipFiles) {
-        line += " " + fs::path(clips).filename().string();
+        line += " " + utf8Text(utf8Path(clips).filename());
     }
     add(reading.retargeting != host::ReadOptions{}.retargeting, "retarget " + reading.retargeting);
-    add(!reading.retargetMap.empty(), "retarget-map " + fs::path(reading.retargetMap).filename().string());
+    add(!reading.retargetMap.empty(), "retarget-map " + utf8Text(utf8Path(reading.retargetMap).filename()));
     return line;
 }
 
 /// The command line, without the folders, which are this machine's.
 std::string madeByOf(const CookOptions& options) {
-    std::string line = "supple cook " + fs::path(options.file).filename().string() + " -o " +
-                       fs::path(options.output).filename().string();
+    std::string line = "supple cook " + utf8Text(utf8Path(options.file).filename()) + " -o " +
+                       utf8Text(utf8Path(options.output).filename());
     const auto add = [&](const char* flag, const auto& values, auto text) {
         line += std::string(" ") + flag + " ";
         for (size_t i = 0; i < values.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "tools/supple/file_browser.h"
 
+#include "base/utf8_path.h"
 #include "tools/supple/command.h"
 
 #include <imgui.h>
@@ -21,7 +22,7 @@ std::optional<std::string> FileBrowser::build(const std::vector<std::string>& re
     ImGui::SetNextWindowSize(ImVec2(kBrowserWidth, 0.0f), ImGuiCond_Appearing);
     if (ImGui::Begin("open a file", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
         ImGui::PushTextWrapPos(kBrowserWidth);
-        ImGui::TextUnformatted(printable(folder_.path.string()).c_str());
+        ImGui::TextUnformatted(printable(utf8Text(folder_.path)).c_str());
         if (!folder_.fault.empty())
             ImGui::TextUnformatted(printable(folder_.fault).c_str());
         ImGui::PopTextWrapPos();
@@ -34,7 +35,7 @@ std::optional<std::string> FileBrowser::build(const std::vector<std::string>& re
             }
             for (const std::string& name : folder_.files) {
                 if (ImGui::Selectable(printable(name).c_str()))
-                    chosen = (folder_.path / name).string();
+                    chosen = utf8Text(folder_.path / utf8Path(name));
             }
             if (folder_.files.empty())
                 ImGui::TextDisabled("no glTF, GLB or OBJ here");

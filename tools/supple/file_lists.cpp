@@ -1,10 +1,11 @@
 #include "tools/supple/file_browser.h"
 
+#include "base/utf8_path.h"
+#include "host/operating_system.h"
 #include "host/whole_file.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <fstream>
 
 namespace supple::tools {
@@ -17,7 +18,7 @@ constexpr size_t kRecentFiles = 12;
 } // namespace
 
 bool isCharacterFile(const fs::path& path) {
-    std::string extension = path.extension().string();
+    std::string extension = utf8Text(path.extension());
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension == ".glb" || extension == ".gltf" || extension == ".vrm" || extension == ".obj";
@@ -30,7 +31,7 @@ Folder readFolder(const fs::path& path) {
         folder.path = path;
     fs::directory_iterator entry(path, fault);
     for (; !fault && entry != fs::directory_iterator(); entry.increment(fault)) {
-        const std::string name = entry->path().filename().string();
+        const std::string name = utf8Text(entry->path().filename());
         std::error_code unknown; // a link that leads nowhere is neither
         if (name.starts_with('.'))
             continue;
@@ -40,18 +41,15 @@ Folder readFolder(const fs::path& path) {
             folder.files.push_back(name);
     }
     if (fault)
-        folder.fault = folder.path.string() + ": " + fault.message();
+        folder.fault = utf8Text(folder.path) + ": " + fault.message();
     std::sort(folder.folders.begin(), folder.folders.end());
     std::sort(folder.files.begin(), folder.files.end());
     return folder;
 }
 
 fs::path recentFilesPath() {
-    const char* const state = std::getenv("XDG_STATE_HOME");
-    if (state != nullptr && fs::path(state).is_absolute())
-        return fs::path(state) / "supple" / "recent";
-    const char* const home = std::getenv("HOME");
-    return home != nullptr && *home != '\0' ? fs::path(home) / ".local" / "state" / "supple" / "recent" : fs::path();
+    const fs::path state = host::stateFolder();
+    return state.empty() ? fs::path() : state / "supple" / "recent";
 }
 
 std::vector<std::string> readRecentFiles(const fs::path& list) {
@@ -59,7 +57,7 @@ std::vector<std::string> readRecentFiles(const fs::path& list) {
     std::ifstream in(list);
     for (std::string line; files.size() < kRecentFiles && std::getline(in, line);) {
         std::error_code unknown;
-        if (fs::is_regular_file(line, unknown))
+        if (fs::is_regular_file(utf8Path(line), unknown))
             files.push_back(line);
     }
     return files;
@@ -69,7 +67,7 @@ void rememberFile(const fs::path& list, const std::string& file) {
     if (list.empty())
         return;
     std::error_code fault;
-    const std::string path = fs::absolute(file, fault).lexically_normal().string();
+    const std::string path = utf8Text(fs::absolute(utf8Path(file), fault).lexically_normal());
     if (fault || path.find('\n') != std::string::npos)
         return;
     std::vector<std::string> files = readRecentFiles(list);
@@ -80,7 +78,7 @@ void rememberFile(const fs::path& list, const std::string& file) {
     for (size_t i = 0; i < std::min(files.size(), kRecentFiles); ++i)
         lines += files[i] + '\n';
     // Nothing depends on the list: if it cannot be written, the old one stays.
-    [[maybe_unused]] const Status written = host::writeWhole(list.string(), std::as_bytes(std::span(lines)));
+    [[maybe_unused]] const Status written = host::writeWhole(utf8Text(list), std::as_bytes(std::span(lines)));
 }
 
 } // namespace supple::tools

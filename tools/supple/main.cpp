@@ -1,16 +1,16 @@
 // The supple command: binds the subcommands and turns every way out into one of the documented exit codes.
 #include "tools/supple/command.h"
 
+#include "host/operating_system.h"
+
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <exception>
-#include <fcntl.h>
+#include <string>
 #include <supple/supple.h>
 #include <system_error>
-#include <unistd.h>
+#include <vector>
 
 namespace {
 
@@ -20,7 +20,8 @@ std::string helpCommand(const CLI::App& app) {
     return chosen.empty() ? "supple --help" : "supple " + chosen.front()->get_name() + " --help";
 }
 
-int run(int argc, char** argv) {
+/// `arguments`: behind the program's name.
+int run(const std::vector<std::string>& arguments) {
     using namespace supple::tools;
     CLI::App app{"Animated control cages to smooth surfaces on Vulkan compute.", "supple"};
     app.require_subcommand(1);
@@ -37,7 +38,7 @@ int run(int argc, char** argv) {
     bindAnimate(app, exitCode);
     bindSheet(app, exitCode);
     bindGallery(app, exitCode);
-    bindProfile(app, exitCode, {argv + std::min(argc, 1), argv + argc});
+    bindProfile(app, exitCode, arguments);
     bindBench(app, exitCode);
     bindView(app, exitCode);
     bindConvert(app, exitCode);
@@ -46,7 +47,7 @@ int run(int argc, char** argv) {
     bindReplay(app, exitCode);
 
     try {
-        app.parse(argc, argv);
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             app.exit(error); // --help and --version end this way
@@ -56,28 +57,6 @@ int run(int argc, char** argv) {
     }
     return exitCode;
 }
-
-/// Others may have made the pipe that is stdout non-blocking, as some terminals and runtimes do to all that share it.
-/// Then it refuses what its reader has left no room for: what is printed would end after 64 KiB. As long as this lives
-/// it blocks.
-class BlockingOutput {
-public:
-    BlockingOutput() {
-        if (flags_ != -1 && (flags_ & O_NONBLOCK) != 0) {
-            (void)fcntl(STDOUT_FILENO, F_SETFL, flags_ & ~O_NONBLOCK);
-        }
-    }
-    ~BlockingOutput() {
-        if (flags_ != -1 && (flags_ & O_NONBLOCK) != 0) {
-            (void)fcntl(STDOUT_FILENO, F_SETFL, flags_);
-        }
-    }
-    BlockingOutput(const BlockingOutput&) = delete;
-    BlockingOutput& operator=(const BlockingOutput&) = delete;
-
-private:
-    int flags_ = fcntl(STDOUT_FILENO, F_GETFL);
-};
 
 /// Flushes what was printed. A full disk or a reader that has gone is a failure, if there is no other.
 int endOutput(int exitCode) {
@@ -92,11 +71,10 @@ int endOutput(int exitCode) {
 } // namespace
 
 int main(int argc, char** argv) {
-    // A write into a closed pipe fails instead, so that no file is left half written.
-    std::signal(SIGPIPE, SIG_IGN);
-    const BlockingOutput blocking;
+    // So that no file is left half written.
+    const supple::host::StandardStreams streams;
     try {
-        return endOutput(run(argc, argv));
+        return endOutput(run(supple::host::utf8Arguments(argc, argv)));
     } catch (const std::bad_alloc&) {
         return supple::tools::fail(supple::tools::kExitBadInput, "out of memory");
     } catch (const std::exception& error) {

@@ -1,13 +1,12 @@
 #include "tools/supple/output_files.h"
 
+#include "base/utf8_path.h"
+#include "host/operating_system.h"
 #include "host/whole_file.h"
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <system_error>
-#include <unistd.h>
 
 namespace supple::tools {
 
@@ -17,26 +16,24 @@ namespace fs = std::filesystem;
 
 /// Also of a file that is not there yet.
 fs::path wholePath(const std::string& path, std::error_code& failed) {
-    const fs::path absolute = fs::absolute(path, failed);
+    const fs::path absolute = fs::absolute(utf8Path(path), failed);
     return failed ? absolute : fs::weakly_canonical(absolute, failed);
 }
 
 std::string whyNotWritable(const std::string& text) {
     std::error_code unknown;
-    const fs::path path(text);
+    const fs::path path = utf8Path(text);
     if (fs::is_directory(path, unknown))
         return "is a folder";
     if (host::isRefusedLink(text))
         return "is a symbolic link";
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::exists(folder, unknown))
-        return "there is no folder " + folder.string();
+        return "there is no folder " + utf8Text(folder);
     if (!fs::is_directory(folder, unknown))
-        return folder.string() + " is no folder";
+        return utf8Text(folder) + " is no folder";
     // A file that is there is written over; one that is not is made.
-    if (access(fs::exists(path, unknown) ? path.c_str() : folder.c_str(), W_OK) != 0)
-        return std::strerror(errno);
-    return {};
+    return host::whyNotWritable(fs::exists(path, unknown) ? path : folder);
 }
 
 } // namespace
@@ -45,7 +42,7 @@ void checkOutputs(const std::vector<std::string>& inputs, const std::vector<Outp
     for (const auto& [option, output] : outputs) {
         for (const std::string& input : inputs) {
             std::error_code ignored;
-            if (!output.empty() && fs::equivalent(input, output, ignored)) {
+            if (!output.empty() && fs::equivalent(utf8Path(input), utf8Path(output), ignored)) {
                 throw CLI::ValidationError(option, output + " is the input itself");
             }
         }

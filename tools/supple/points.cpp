@@ -1,4 +1,5 @@
 // supple points: where points of a surface are in a pose, and how they are turned, as the device has them.
+#include "base/utf8_path.h"
 #include "tools/common/character_file.h"
 #include "tools/supple/command.h"
 #include "tools/supple/evaluation.h"
@@ -86,7 +87,7 @@ std::string takePoint(const PointsJson& entry, const cage::Character& character,
 }
 
 Result<GivenPoints> readPoints(const std::string& path, const cage::Character& character) {
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file(utf8Path(path), std::ios::binary);
     if (!file) {
         return Error{ErrorCode::io, path + ": cannot be read"};
     }

@@ -1,5 +1,6 @@
 // supple profile: what every pass of a frame takes, over many frames; what changed since an earlier result, or between
 // two builds.
+#include "base/utf8_path.h"
 #include "tools/common/character_file.h"
 #include "tools/common/machine.h"
 #include "tools/supple/command.h"
@@ -66,8 +67,8 @@ Result<std::vector<MeasuredRun>> earlierRuns(const ProfileOptions& options) {
     if (options.compare.empty()) {
         return std::vector<MeasuredRun>{};
     }
-    std::ifstream file(options.compare);
-    if (!file || std::filesystem::is_directory(options.compare)) {
+    std::ifstream file(utf8Path(options.compare));
+    if (!file || std::filesystem::is_directory(utf8Path(options.compare))) {
         return Error{ErrorCode::asset, options.compare + ": cannot be read"};
     }
     return measuredRuns(nlohmann::ordered_json::parse(file, nullptr, false), options.compare);

@@ -1,5 +1,6 @@
 #include "tools/supple/profile_compare.h"
 
+#include "base/utf8_path.h"
 #include "tools/common/formatted.h"
 #include "tools/common/statistics.h"
 
@@ -151,8 +152,7 @@ std::string nameOf(const Json& run) {
     const std::string files = run.value("file", std::string());
     for (size_t begin = 0; begin <= files.size();) { // "a/b.glb + c/d.glb": a build server has other folders
         const size_t end = std::min(files.find(" + ", begin), files.size());
-        name +=
-            (name.empty() ? "" : " + ") + std::filesystem::path(files.substr(begin, end - begin)).filename().string();
+        name += (name.empty() ? "" : " + ") + utf8Text(utf8Path(files.substr(begin, end - begin)).filename());
         begin = end + 3;
     }
     name += ", " + run.value("scheme", std::string());

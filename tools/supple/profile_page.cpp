@@ -1,5 +1,7 @@
 #include "tools/supple/profile_page.h"
 
+#include "base/utf8_path.h"
+#include "host/operating_system.h"
 #include "tools/supple/render.h"
 #include "tools/supple/text_file.h"
 
@@ -7,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <unistd.h>
 
 namespace supple::tools {
 namespace {
@@ -17,8 +18,8 @@ Result<std::vector<HtmlReport::Picture>> picturesOf(Session& session, const Prof
                                                     const std::vector<host::CharacterFile>& files,
                                                     std::span<const ProfileRun> runs) {
     std::vector<HtmlReport::Picture> pictures;
-    const std::string path =
-        (std::filesystem::temp_directory_path() / ("supple_profile_" + std::to_string(getpid()) + ".png")).string();
+    const std::string path = utf8Text(std::filesystem::temp_directory_path() /
+                                      ("supple_profile_" + std::to_string(host::processId()) + ".png"));
     for (const ProfileRun& run : runs) {
         const bool known = std::any_of(pictures.begin(), pictures.end(), [&](const HtmlReport::Picture& picture) {
             return picture.file == run.file && picture.scheme == run.scheme;
@@ -42,9 +43,9 @@ Result<std::vector<HtmlReport::Picture>> picturesOf(Session& session, const Prof
         if (!drawn) {
             return drawn.error();
         }
-        std::ifstream png(path, std::ios::binary);
+        std::ifstream png(utf8Path(path), std::ios::binary);
         pictures.push_back({run.file, run.scheme, {std::istreambuf_iterator<char>(png), {}}});
-        std::filesystem::remove(path);
+        std::filesystem::remove(utf8Path(path));
     }
     return pictures;
 }

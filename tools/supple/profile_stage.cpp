@@ -1,5 +1,6 @@
 #include "tools/supple/profile_stage.h"
 
+#include "base/utf8_path.h"
 #include "host/camera.h"
 #include "host/group_output.h"
 #include "host/patches.h"
@@ -156,7 +157,7 @@ Result<ProfiledSurface> ProfileStage::reportSurface(SuppleGroup group, uint32_t 
     if (!patches) {
         return patches.error();
     }
-    ProfiledSurface surface{std::filesystem::path(file.path).filename().string(), schemeName(info.scheme), {}};
+    ProfiledSurface surface{utf8Text(utf8Path(file.path).filename()), schemeName(info.scheme), {}};
     for (const uint32_t part : std::span(info.parts, info.partCount)) {
         const std::string name = part < character.parts.size() ? character.parts[part].name : "";
         surface.parts.push_back({name.empty() ? "part " + std::to_string(part) : printable(name), (*patches)[part]});
@@ -173,7 +174,7 @@ size_t ProfileStage::surfaceOf(SuppleGroup group, uint32_t surface) const {
 
 Status ProfileStage::report(SuppleGroup group, const host::CharacterFile& file, ProfileRun& run) {
     firstSurfaces_.push_back(run.surfaces.size());
-    run.surfaces.push_back({std::filesystem::path(file.path).filename().string(), "", {}});
+    run.surfaces.push_back({utf8Text(utf8Path(file.path).filename()), "", {}});
     uint32_t patches = 0, count = 1;
     for (uint32_t surface = 0; surface < count; ++surface) {
         host::GroupOutput output{};

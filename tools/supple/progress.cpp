@@ -1,19 +1,20 @@
 #include "tools/supple/progress.h"
 
+#include "base/utf8_path.h"
+#include "host/operating_system.h"
 #include "tools/common/formatted.h"
 #include "tools/supple/command.h"
 
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
-#include <unistd.h>
 
 namespace supple::tools {
 
 namespace {
 
 bool atTerminal() {
-    return isatty(STDERR_FILENO) != 0;
+    return host::isTerminal(stderr);
 }
 
 } // namespace
@@ -49,7 +50,7 @@ std::string sizeText(double bytes) {
 
 void tellWritten(const std::string& path) {
     std::error_code failed;
-    const uintmax_t bytes = std::filesystem::file_size(path, failed);
+    const uintmax_t bytes = std::filesystem::file_size(utf8Path(path), failed);
     if (atTerminal() && !failed) {
         std::fprintf(stderr, "%ssupple: wrote %s, %s\n", std::string(lineBegin()).c_str(), printable(path).c_str(),
                      sizeText(static_cast<double>(bytes)).c_str());

@@ -1,4 +1,5 @@
 // supple replay: makes the calls of a recording again, and compares what comes out.
+#include "base/utf8_path.h"
 #include "cage/gltf/uri.h"
 #include "tools/replay/replayer.h"
 #include "tools/supple/command.h"
@@ -169,7 +170,7 @@ Result<Replayer::Options> replayerOptions(const ReplayOptions& options) {
     made.mapping = mappingOf(options.device);
     made.memory = VkDeviceSize{options.memory} << 20;
     for (const std::string& path : options.characters) {
-        Result<std::vector<std::byte>> bytes = cage::gltf::readRegularFile(path);
+        Result<std::vector<std::byte>> bytes = cage::gltf::readRegularFile(utf8Path(path));
         if (!bytes) {
             return ofFile(path, bytes.error());
         }
@@ -217,7 +218,7 @@ int report(const runtime::RecordingReader& reader, const Replayer& replayer, con
 }
 
 int run(const ReplayOptions& options) {
-    const Result<std::vector<std::byte>> bytes = cage::gltf::readRegularFile(options.file);
+    const Result<std::vector<std::byte>> bytes = cage::gltf::readRegularFile(utf8Path(options.file));
     if (!bytes) {
         return fail(ofFile(options.file, bytes.error()));
     }

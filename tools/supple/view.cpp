@@ -1,5 +1,6 @@
 #include "tools/supple/view.h"
 
+#include "base/utf8_path.h"
 #include "tools/supple/command.h"
 
 #if !SUPPLE_HAS_WINDOW
@@ -53,7 +54,7 @@ Look lookOf(const ViewOptions& options) {
 }
 
 std::string fileName(const std::string& path) {
-    return printable(std::filesystem::path(path).filename().string());
+    return printable(utf8Text(utf8Path(path).filename()));
 }
 
 /// Everything of the viewer, in the order it is made; it goes in the opposite order.
@@ -317,8 +318,8 @@ Status Viewer::takeDropped() {
     std::string last;
     for (const std::string& path : window_->takeDropped()) {
         std::error_code unknown;
-        if (std::filesystem::is_directory(path, unknown)) {
-            panel_->browser.enter(path);
+        if (std::filesystem::is_directory(utf8Path(path), unknown)) {
+            panel_->browser.enter(utf8Path(path));
             panel_->browser.open = true;
         } else {
             last = path;

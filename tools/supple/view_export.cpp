@@ -1,5 +1,6 @@
 #include "tools/supple/view_export.h"
 
+#include "base/utf8_path.h"
 #include "tools/common/formatted.h"
 #include "tools/supple/command.h"
 #include "tools/supple/views.h"
@@ -86,7 +87,9 @@ Status makeFrames(const AnimateOptions& options) {
 std::string freeName(const std::string& stem, const std::string& ending) {
     std::error_code unknown;
     std::string name = stem + ending;
-    const auto isTaken = [&] { return fs::exists(frameFile(name, 0).empty() ? name : frameFile(name, 0), unknown); };
+    const auto isTaken = [&] {
+        return fs::exists(utf8Path(frameFile(name, 0).empty() ? name : frameFile(name, 0)), unknown);
+    };
     for (int number = 2; isTaken(); ++number)
         name = stem + "_" + std::to_string(number) + ending;
     return name;
@@ -128,7 +131,7 @@ void ViewExport::start(const ViewStage& stage, const DrawOptions& given, const E
     const char* const ending = wish.kind == ExportKind::animation  ? ".webp"
                                : wish.kind == ExportKind::sequence ? "_####.png"
                                                                    : ".png";
-    output_ = freeName(fs::path(stage.figure().path()).stem().string(), ending);
+    output_ = freeName(utf8Text(utf8Path(stage.figure().path()).stem()), ending);
     if (frames) {
         AnimateOptions options = shownClip(stage, given, wish);
         options.output = output_;

@@ -2,6 +2,7 @@
 
 #if SUPPLE_HAS_WINDOW
 
+#include "base/utf8_path.h"
 #include "tools/supple/command.h"
 #include "tools/supple/view_keys.h"
 #include "tools/supple/view_overlay.h"
@@ -107,7 +108,7 @@ void handleKeys(PanelState& state, ViewStage& stage, float aspect, PanelWishes& 
 
 void buildFiles(PanelState& state, const ViewStage& stage, PanelWishes& wishes) {
     const auto shortName = [&](size_t i) {
-        return printable(std::filesystem::path(state.files[i].path).filename().string()) +
+        return printable(utf8Text(utf8Path(state.files[i].path).filename())) +
                (state.files[i].refused ? " (refused)" : "");
     };
     if (ImGui::Button("open"))

@@ -445,8 +445,8 @@ typedef struct SuppleFileBytes {
 /** The host's file system: how the external files of an asset (buffers, images, MTL files) are found. */
 typedef struct SuppleFiles {
     /** Fills out and returns non-zero, or returns 0 if there is no such file. The bytes must stay valid until release.
-     * path is relative to the asset and percent-decoded. It has forward slashes, and no "..", "." or URI scheme. Supple
-     * calls both functions in suppleCreateAsset and suppleReloadAsset, on the thread that called it. */
+     * path is UTF-8, relative to the asset and percent-decoded. It has forward slashes, and no "..", "." or colon.
+     * Supple calls both functions in suppleCreateAsset and suppleReloadAsset, on the thread that called it. */
     int (*read)(const char* path, SuppleFileBytes* out, void* user);
     void (*release)(SuppleFileBytes* bytes, void* user); /**< optional; called once per successful read */
     void* user;
@@ -465,7 +465,7 @@ typedef struct SuppleClipFile {
     const char* name; /**< optional; begins every message about the file. Clips without a name are called as the file */
     const void* bytes; /**< a .glb or .gltf file */
     size_t byteCount;
-    const char* baseDirectory; /**< where its external files lie; null allows none */
+    const char* baseDirectory; /**< where its external files lie, in UTF-8; null allows none */
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
 } SuppleClipFile;
 
@@ -511,7 +511,7 @@ typedef struct SuppleAssetDesc {
      * scene, clipFiles and flags other than SUPPLE_ASSET_STRICT must be 0. */
     const void* bytes;
     size_t byteCount;
-    const char* baseDirectory; /**< where the external files of a .gltf or .obj lie; null allows none */
+    const char* baseDirectory; /**< where the external files of a .gltf or .obj lie, in UTF-8; null allows none */
     const SuppleFiles* files;  /**< optional: asked instead of baseDirectory; needed during the call only */
     const SuppleCageDesc*
         cage;       /**< a bare cage: a character of one part with one joint, which is called as the asset */

@@ -181,6 +181,9 @@ TEST(GltfRefusals, ExternalFiles) {
     EXPECT_EQ(with("https://example.com/a.bin"),
               refused("https://example.com/a.bin", "only relative paths and data: URIs are allowed"));
     EXPECT_EQ(with("C%3A/a.bin"), refused("C%3A/a.bin", "only relative paths and data: URIs are allowed"));
+    EXPECT_EQ(with("sub/C%3Aa.bin"),
+              refused("sub/C%3Aa.bin", "path contains a colon, which means a drive or a stream on Windows"));
+    EXPECT_EQ(with("sub/NUL.bin"), refused("sub/NUL.bin", "path names a device of Windows"));
     EXPECT_EQ(with("a%00b"), refused("a%00b", "path contains a NUL character"));
     EXPECT_EQ(with("sub", ErrorCode::io), refused("sub", "not a regular file"));
     EXPECT_EQ(with("none.bin", ErrorCode::io), refused("none.bin", "no such file"));

@@ -143,14 +143,15 @@ TEST(ObjMaterials, MissingFilesCostAWarning) {
     Folder folder;
     folder.files["b.mtl"] = "newmtl M\nKd 0 1 0\n";
     const Character c = readFrom(folder, "mtllib a.mtl b.mtl\nmtllib /etc/none.mtl\nmtllib http://x/y.mtl\n"
-                                         "mtllib ../up.mtl\n" +
+                                         "mtllib ../up.mtl\nmtllib sub/nul.mtl\n" +
                                              kTriangle + "usemtl M\n" + kFace);
     EXPECT_EQ(c.materials[0].baseColorFactor, glm::vec4(0, 1, 0, 1));
     EXPECT_EQ(c.warnings,
               (Said{"line 1: mtllib \"a.mtl\": no such file; left out",
                     "line 2: mtllib \"/etc/none.mtl\": no such file; left out",
                     "line 3: mtllib \"http://x/y.mtl\": only files of the asset's folder are read; left out",
-                    "line 4: mtllib \"../up.mtl\": path leaves the asset's folder; left out"}));
+                    "line 4: mtllib \"../up.mtl\": path leaves the asset's folder; left out",
+                    "line 5: mtllib \"sub/nul.mtl\": path names a device of Windows; left out"}));
     EXPECT_EQ(folder.asked, (Said{"a.mtl b.mtl", "a.mtl", "b.mtl", "none.mtl"}));
     EXPECT_TRUE(readObj(toBytes("mtllib a.mtl\n" + kTriangle + kFace), "t.obj", {.finish = {.strict = true}}).ok());
 }

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Builds Supple for Windows, from Debian, in build/windows: the library, bin/supple.exe and the samples minimal and c_host.
+# Usage: tools/windows.sh [cmake arguments, such as -DSUPPLE_WITH_DRACO=OFF]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. tools/packages.sh
+
+install_missing "${supple_packages[@]}" "${supple_windows_packages[@]}"
+tools/windows_libraries.sh
+cmake --preset windows "$@"
+cmake --build --preset windows -j "$(nproc)"
