@@ -17,7 +17,7 @@ supple_test_packages=(
     xvfb xauth xdotool
     qt6-declarative-dev qml6-module-qtquick qml6-module-qtquick-controls
     qml6-module-qtquick-templates qml6-module-qtqml-workerscript
-    abigail-tools pkg-config
+    abigail-tools pkg-config spirv-cross
     doxygen python3
     g++-mingw-w64-x86-64-posix
     clang libc++-dev libc++abi-dev

@@ -246,7 +246,8 @@ vec4 packedWeights(uint head, vec2 time, uint quad, vec4 rest) {
         } else if (own.constant != 0u) {
             values = packedConstant(place.sections, own.number);
         }
-        for (uint k = 0u; (own.changing | own.constant) != 0u && k < 3u; ++k) {
+        uint count = (own.changing | own.constant) != 0u ? 3u : 0u;
+        for (uint k = 0u; k < count; ++k) {
             uint target = 3u * three + k;
             if (target / 4u == quad) {
                 weights = withComponent(weights, target & 3u, k == 0u ? values.x : k == 1u ? values.y : values.z);

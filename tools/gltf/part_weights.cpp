@@ -12,8 +12,8 @@ namespace {
 /// One number of a linear channel.
 float linearAt(const Channel& channel, float time, size_t number) {
     const size_t width = channel.width();
-    const auto after = static_cast<size_t>(std::upper_bound(channel.times.begin(), channel.times.end(), time) -
-                                           channel.times.begin());
+    const auto after =
+        static_cast<size_t>(std::upper_bound(channel.times.begin(), channel.times.end(), time) - channel.times.begin());
     const size_t next = std::min(after, channel.times.size() - 1), key = after > 0 ? after - 1 : 0;
     const float begin = channel.times[key], end = channel.times[next];
     const float part = end > begin ? (time - begin) / (end - begin) : 0.0f;
