@@ -1,5 +1,6 @@
 #include "gpu/pipeline.h"
 
+#include "gpu/fast_math.h"
 #include "shaders/shared/specialization.h"
 
 #include <algorithm>
@@ -68,7 +69,12 @@ Result<ComputeLayout> ComputeLayout::ofShared(const Device& device, std::span<co
 Result<PipelineHandle> createComputePipeline(const Device& device, VkPipelineLayout layout, const Spirv& spirv,
                                              std::span<const Constant> constants, const char* name) {
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    const std::span<const uint32_t> words = wordsOf(device, spirv);
+    std::span<const uint32_t> words = wordsOf(device, spirv);
+    std::vector<uint32_t> changed;
+    if (hasFastMath(device)) {
+        changed = withoutFastMath(words);
+        words = changed;
+    }
     moduleInfo.codeSize = words.size_bytes();
     moduleInfo.pCode = words.data();
     VkShaderModule shader = VK_NULL_HANDLE;

@@ -16,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace supple::skinning {
@@ -25,8 +26,10 @@ using cage::Channel;
 using cage::ChannelPath;
 using shared::kSegmentFrames;
 
-constexpr double kStill = 0.5;       // of a budget: what a property may lose to be constant
-constexpr double kForRounding = 0.6; // of a budget; the rest is for skipped frames
+constexpr double kStill = 0.5;            // of a budget: what a property may lose to be constant
+constexpr double kForRounding = 0.6;      // of a budget; the rest is for skipped frames
+constexpr double kLatticeDistance = 0.87; // to the nearest point, in steps
+constexpr double kWeightShare = 0.5;      // of a budget, for morph weights
 constexpr int kBalancings = 2;
 constexpr double kBalance = 0.7;   // the power of what is left with which a budget grows
 constexpr double kLeastUsed = 0.1; // of the error: less counts as that
@@ -94,30 +97,34 @@ private:
     std::vector<std::vector<float>> distances_; ///< by first frame, from length 2 on
 };
 
-/// The morph weights of one channel of a clip, on its frames.
-struct WeightTrack {
-    const Channel* channel = nullptr;
-    std::vector<std::vector<double>> values; ///< by frame
-    double fromRest = 0.0;                   ///< distance moved if they stay at rest
-    Spans spans;
-};
-
 /// A property of a clip, on its frames.
 struct Track {
-    const Channel* channel = nullptr;
-    uint32_t place = 0;             ///< of its node
+    const Channel* channel = nullptr; ///< nothing for morph weights
+    ChannelPath path = ChannelPath::translation;
+    uint32_t place = 0;             ///< of PackedPlaces
     std::vector<glm::dvec3> values; ///< one a frame; of rotations the quarter tangents from the reference
     std::vector<glm::dquat> turns;  ///< of rotations
-    std::array<uint32_t, 3> reference{255u, 255u, 255u};
+    std::array<uint32_t, 3> reference{15u, 15u, 15u};
     glm::dvec3 constant{0.0};                  ///< the value if it is kept constant
-    double reach = 0.0;                        ///< distance moved per radian, or per unit of a value
+    glm::dvec3 reach{0.0};                     ///< distance moved per radian, or per unit of a value
     double fromRest = 0.0, fromConstant = 0.0; ///< distance moved if it is kept at these
     bool jumps = false;                        ///< a rotation by more than the decoder's arc between two frames
     double share = 1.0;                        ///< its budget, in budgets of the clip
     Spans spans;
 
-    [[nodiscard]] ChannelPath path() const { return channel->path; }
-    [[nodiscard]] bool isRotation() const { return channel->path == ChannelPath::rotation; }
+    [[nodiscard]] bool isRotation() const { return path == ChannelPath::rotation; }
+    [[nodiscard]] bool isWeights() const { return path == ChannelPath::weights; }
+    /// What morph targets move adds up.
+    [[nodiscard]] double distance(const glm::dvec3& difference) const {
+        const glm::dvec3 moved = reach * glm::abs(difference);
+        return isWeights() ? moved.x + moved.y + moved.z : glm::length(moved);
+    }
+    /// The largest distance by which rounding to a lattice of step 1 moves. An angle is four quarter tangents.
+    [[nodiscard]] double moveOfStep() const {
+        return isRotation()  ? 4.0 * kLatticeDistance * reach.x
+               : isWeights() ? 0.5 * (reach.x + reach.y + reach.z)
+                             : kLatticeDistance * reach.x;
+    }
 };
 
 /// How far packing may move a vertex, as parts of the extent.
@@ -168,8 +175,11 @@ private:
     /// Those that are packed: the last one of a property counts.
     bool chooseChannels() {
         std::map<std::pair<uint32_t, ChannelPath>, const Channel*> last;
+        std::vector<const Channel*> weights;
         for (const Channel& own : clip_.channels) {
-            if (own.path != ChannelPath::weights && order_.places[own.node] != cage::kNone) {
+            if (own.path == ChannelPath::weights) {
+                weights.push_back(&own);
+            } else if (order_.places[own.node] != cage::kNone) {
                 last[{order_.places[own.node], own.path}] = &own;
             }
         }
@@ -181,22 +191,45 @@ private:
             if (isPacked(*channel)) {
                 Track& track = tracks_.emplace_back();
                 track.channel = channel;
+                track.path = channel->path;
                 track.place = property.first;
             }
         }
         for (const Channel& own : clip_.channels) {
             if (own.path == ChannelPath::weights) {
-                if (own.interpolation == cage::Interpolation::linear) {
-                    weights_.push_back({&own, {}, 0.0, {}});
-                } else {
-                    rest_.push_back(own);
-                }
-            } else if (const uint32_t place = order_.places[own.node];
-                       place == cage::kNone || (last[{place, own.path}] == &own && !isPacked(own))) {
+                continue;
+            }
+            if (const uint32_t place = order_.places[own.node];
+                place == cage::kNone || (last[{place, own.path}] == &own && !isPacked(own))) {
                 rest_.push_back(own);
             }
         }
+        chooseWeights(weights);
         return !tracks_.empty();
+    }
+    /// All are packed, or none.
+    void chooseWeights(std::span<const Channel* const> channels) {
+        movesWeights_ = !channels.empty();
+        if (!std::all_of(channels.begin(), channels.end(),
+                         [](const Channel* own) { return own->interpolation == cage::Interpolation::linear; })) {
+            keepWeights(rest_);
+            return;
+        }
+        std::set<uint32_t> threes;
+        for (const Channel* own : channels) {
+            for (uint32_t target = 0; target < own->width(); ++target) {
+                threes.insert((own->firstTarget + target) / 3);
+            }
+        }
+        for (const uint32_t three : threes) {
+            Track& track = tracks_.emplace_back();
+            track.path = ChannelPath::weights;
+            track.place = static_cast<uint32_t>(order_.nodes.size()) + three;
+        }
+    }
+    void keepWeights(std::vector<Channel>& to) const {
+        std::copy_if(clip_.channels.begin(), clip_.channels.end(), std::back_inserter(to),
+                     [](const Channel& own) { return own.path == ChannelPath::weights; });
     }
 
     /// The rate on whose frames all keys lie, or a common one.
@@ -236,7 +269,7 @@ private:
     }
 
     /// Weights differ where a channel or a driver sets some.
-    [[nodiscard]] bool comparesWeights() const { return !weights_.empty() || hasDrivers_; }
+    [[nodiscard]] bool comparesWeights() const { return movesWeights_ || hasDrivers_; }
     [[nodiscard]] size_t driverWork() const {
         size_t rounds = 0;
         for (const cage::PoseDriver& driver : distance_.character().drivers) {
@@ -256,9 +289,6 @@ private:
         for (Track& track : tracks_) {
             track.values.clear();
             track.turns.clear();
-        }
-        for (WeightTrack& track : weights_) {
-            track.values.clear();
         }
         truth_.assign(2 * size_t{last_} + 1, std::vector<glm::dmat4>(character.skeleton.nodes.size()));
         trueWeights_.assign(comparesWeights() ? truth_.size() : 0, {});
@@ -283,29 +313,33 @@ private:
                 return distanceIfSkipped(track, first, length);
             });
         }
-        for (WeightTrack& track : weights_) {
-            measure(track);
-            track.spans.measure(last_, tooMuch, [&](uint32_t first, uint32_t length) {
-                return distanceIfSkipped(track, first, length);
-            });
-        }
         return true;
     }
     void takeFrame() {
-        for (WeightTrack& track : weights_) {
-            const auto begin = pose_.morphWeights.begin() + track.channel->firstTarget;
-            track.values.emplace_back(begin, begin + static_cast<ptrdiff_t>(track.channel->width()));
-        }
         for (Track& track : tracks_) {
+            if (track.isWeights()) {
+                track.values.push_back(threeOf(pose_.morphWeights, track));
+                continue;
+            }
             const Transform& own = pose_.locals[order_.nodes[track.place]];
             if (track.isRotation()) {
                 const glm::dquat q = unit(own.rotation);
                 const bool other = !track.turns.empty() && glm::dot(track.turns.back(), q) < 0.0;
                 track.turns.push_back(other ? -q : q);
             } else {
-                track.values.push_back(track.path() == ChannelPath::translation ? own.translation : own.scale);
+                track.values.push_back(track.path == ChannelPath::translation ? own.translation : own.scale);
             }
         }
+    }
+    /// Of numbers by morph target; behind the last there are zeros.
+    template <class Numbers>
+    [[nodiscard]] glm::dvec3 threeOf(const Numbers& numbers, const Track& track) const {
+        const size_t first = 3 * (track.place - order_.nodes.size());
+        glm::dvec3 three(0.0);
+        for (size_t k = 0; k < 3 && first + k < numbers.size(); ++k) {
+            three[static_cast<int>(k)] = static_cast<double>(numbers[first + k]);
+        }
+        return three;
     }
     [[nodiscard]] bool isModest(const std::vector<glm::dmat4>& globals) const {
         constexpr double kFar = 1e12;
@@ -328,19 +362,26 @@ private:
         return 0.5 * (low + high);
     }
     void measure(Track& track) const {
-        const uint32_t node = order_.nodes[track.place];
-        const cage::Node& own = distance_.character().skeleton.nodes[node];
-        track.reach = distance_.reach(node, track.path());
         track.fromRest = track.fromConstant = 0.0;
-        if (track.isRotation()) {
-            measureTurns(track, unit(glm::dquat(own.rotation)));
+        if (track.isWeights()) {
+            track.reach = threeOf(distance_.targetReaches(), track);
+            measureFrom(track, threeOf(distance_.character().morphs.weights, track));
             return;
         }
+        const uint32_t node = order_.nodes[track.place];
+        const cage::Node& own = distance_.character().skeleton.nodes[node];
+        track.reach = glm::dvec3(distance_.reach(node, track.path));
+        if (track.isRotation()) {
+            measureTurns(track, unit(glm::dquat(own.rotation)));
+        } else {
+            measureFrom(track, glm::dvec3(track.path == ChannelPath::translation ? own.translation : own.scale));
+        }
+    }
+    static void measureFrom(Track& track, const glm::dvec3& rest) {
         track.constant = middleOf(track.values);
-        const glm::dvec3 rest(track.path() == ChannelPath::translation ? own.translation : own.scale);
         for (const glm::dvec3& v : track.values) {
-            track.fromRest = std::max(track.fromRest, track.reach * glm::length(v - rest));
-            track.fromConstant = std::max(track.fromConstant, track.reach * glm::length(v - track.constant));
+            track.fromRest = std::max(track.fromRest, track.distance(v - rest));
+            track.fromConstant = std::max(track.fromConstant, track.distance(v - track.constant));
         }
     }
     void measureTurns(Track& track, const glm::dquat& rest) const {
@@ -359,8 +400,8 @@ private:
         const glm::dquat constant = reference * fromQuarterTangent(middleOf(track.values));
         track.constant = toQuarterTangent(constant);
         for (const glm::dquat& q : track.turns) {
-            track.fromRest = std::max(track.fromRest, track.reach * angleBetween(q, rest));
-            track.fromConstant = std::max(track.fromConstant, track.reach * angleBetween(q, constant));
+            track.fromRest = std::max(track.fromRest, track.reach.x * angleBetween(q, rest));
+            track.fromConstant = std::max(track.fromConstant, track.reach.x * angleBetween(q, constant));
         }
     }
     /// Up to 120 degrees, which slerpShare is made for.
@@ -376,62 +417,25 @@ private:
             }
             for (uint32_t k = 1; k < length; ++k) {
                 const glm::dquat q = slerp(a, b, static_cast<double>(k) / length);
-                worst = std::max(worst, angleBetween(q, track.turns[first + k]));
+                worst = std::max(worst, track.reach.x * angleBetween(q, track.turns[first + k]));
             }
         } else {
             const glm::dvec3 &a = track.values[first], &b = track.values[end];
             for (uint32_t k = 1; k < length; ++k) {
                 const glm::dvec3 v = glm::mix(a, b, static_cast<double>(k) / length);
-                worst = std::max(worst, glm::length(v - track.values[first + k]));
+                worst = std::max(worst, track.distance(v - track.values[first + k]));
             }
-        }
-        return worst * track.reach;
-    }
-
-    /// The largest distance between two lists of morph weights.
-    [[nodiscard]] double between(uint32_t firstTarget, std::span<const double> a, std::span<const double> b) const {
-        double sum = 0.0;
-        for (size_t t = 0; t < a.size(); ++t) {
-            sum += distance_.targetReach(firstTarget + static_cast<uint32_t>(t)) * std::abs(a[t] - b[t]);
-        }
-        return sum;
-    }
-    void measure(WeightTrack& track) const {
-        const std::vector<float>& weights = distance_.character().morphs.weights;
-        const auto begin = weights.begin() + track.channel->firstTarget;
-        const std::vector<double> rest(begin, begin + static_cast<ptrdiff_t>(track.values.front().size()));
-        track.fromRest = 0.0;
-        for (const std::vector<double>& own : track.values) {
-            track.fromRest = std::max(track.fromRest, between(track.channel->firstTarget, own, rest));
-        }
-    }
-    [[nodiscard]] double distanceIfSkipped(const WeightTrack& track, uint32_t first, uint32_t length) const {
-        const std::vector<double>&a = track.values[first], &b = track.values[first + length];
-        std::vector<double> mixed(a.size());
-        double worst = 0.0;
-        for (uint32_t k = 1; k < length; ++k) {
-            for (size_t t = 0; t < a.size(); ++t) {
-                mixed[t] = glm::mix(a[t], b[t], static_cast<double>(k) / length);
-            }
-            worst = std::max(worst, between(track.channel->firstTarget, mixed, track.values[first + k]));
         }
         return worst;
     }
-    /// The weights at fewer keys; nothing if they stay at rest.
-    [[nodiscard]] std::optional<Channel> thinned(const WeightTrack& track, double budget) const {
-        if (track.fromRest <= kStill * budget) {
-            return std::nullopt;
+
+    /// The largest distance between two lists of morph weights.
+    [[nodiscard]] double between(std::span<const double> a, std::span<const double> b) const {
+        double sum = 0.0;
+        for (size_t t = 0; t < a.size(); ++t) {
+            sum += distance_.targetReaches()[t] * std::abs(a[t] - b[t]);
         }
-        Channel channel = *track.channel;
-        channel.times.clear();
-        channel.values.clear();
-        for (const uint32_t frame : track.spans.knots(last_, (1.0 - kForRounding) * budget)) {
-            channel.times.push_back(static_cast<float>(timeOf(frame)));
-            for (const double w : track.values[frame]) {
-                channel.values.push_back(static_cast<float>(w));
-            }
-        }
-        return channel.times.size() < track.channel->times.size() ? channel : *track.channel;
+        return sum;
     }
 
     /// What is too large for 20 bits stays too large.
@@ -445,17 +449,15 @@ private:
         }
         PackedProperty own;
         own.place = track.place;
-        own.path = track.path();
+        own.path = track.path;
         own.isConstant = track.fromConstant <= kStill * budget;
         if (own.isConstant) {
             own.exponent = constantExponent(track.constant);
             own.values.push_back(wholeOf(track.constant, own.exponent));
             return own;
         }
-        // An angle is four quarter tangents. 0.87: the distance to the nearest point of a lattice, in steps.
-        const double metric = track.reach * (track.isRotation() ? 4.0 : 1.0);
-        const double step = kForRounding * budget / (0.87 * metric);
-        own.exponent = std::clamp(static_cast<int>(std::ceil(-std::log2(step))), kLeastExponent, kMostExponent);
+        const double bits = std::ceil(-std::log2(kForRounding * budget / track.moveOfStep()));
+        own.exponent = static_cast<int>(std::clamp<double>(bits, kLeastExponent, kMostExponent));
         own.reference = track.reference;
         own.frames = track.spans.knots(last_, (1.0 - kForRounding) * budget);
         for (const uint32_t frame : own.frames) {
@@ -469,18 +471,23 @@ private:
         Attempt attempt;
         attempt.packed.last = last_;
         attempt.rest = rest_;
+        bool keepsWeights = false;
         for (const Track& track : tracks_) {
             std::optional<PackedProperty> own = packed(track, budget * track.share);
             if (own && (track.jumps || !fitsLayout(*own))) {
-                attempt.rest.push_back(*track.channel);
+                if (track.isWeights()) {
+                    keepsWeights = true;
+                } else {
+                    attempt.rest.push_back(*track.channel);
+                }
             } else if (own) {
                 attempt.packed.properties.push_back(std::move(*own));
             }
         }
-        for (const WeightTrack& track : weights_) {
-            if (std::optional<Channel> own = thinned(track, budget)) {
-                attempt.rest.push_back(std::move(*own));
-            }
+        if (keepsWeights) {
+            std::erase_if(attempt.packed.properties,
+                          [](const PackedProperty& own) { return own.path == ChannelPath::weights; });
+            keepWeights(attempt.rest);
         }
         return attempt;
     }
@@ -491,7 +498,7 @@ private:
         clip.duration = clip_.duration;
         clip.markers = clip_.markers;
         clip.sharpness = clip_.sharpness;
-        clip.channels = channelsOf(attempt.packed, clip_.duration, order_.nodes);
+        clip.channels = channelsOf(attempt.packed, clip_.duration, order_.nodes, order_.targetCount);
         clip.packed.channelCount = static_cast<uint32_t>(clip.channels.size());
         clip.channels.insert(clip.channels.end(), attempt.rest.begin(), attempt.rest.end());
         return clip;
@@ -507,7 +514,7 @@ private:
             double own = distance_.between(globals, truth_[k], vertices);
             if (comparesWeights()) {
                 takeWeights(shownWeights_);
-                own += between(0, shownWeights_, trueWeights_[k]) / distance_.extent();
+                own += between(shownWeights_, trueWeights_[k]) / distance_.extent();
             }
             worst = std::max(worst, own);
         }
@@ -534,7 +541,7 @@ private:
         for (int i = 0; i < 12 && low > 0.0; ++i, low *= 0.93) {
             Found own{make(low * error * distance_.extent()), {}};
             std::optional<std::vector<uint32_t>> words =
-                packedWords(own.attempt.packed, clip_.duration, order_.nodes.size());
+                packedWords(own.attempt.packed, clip_.duration, {order_.nodes.size(), order_.targetCount});
             if (!words || own.attempt.packed.properties.empty()) {
                 return std::nullopt;
             }
@@ -553,13 +560,16 @@ private:
     template <class Make>
     std::optional<Found> balanced(double error, Make&& make) {
         for (Track& track : tracks_) {
-            track.share = 1.0;
+            track.share = track.isWeights() ? kWeightShare : 1.0;
         }
         std::optional<Found> best = search(error, make);
         std::optional<Found> last = best;
         for (int i = 0; i < kBalancings && last; ++i) {
             const std::vector<double> off = offBelow(last->clip);
             for (Track& track : tracks_) {
+                if (track.isWeights()) {
+                    continue;
+                }
                 track.share *= std::pow(error / std::max(off[order_.nodes[track.place]], kLeastUsed * error), kBalance);
             }
             last = search(error, make);
@@ -625,7 +635,7 @@ private:
     const char *leftOut_ = nullptr, *twinLeftOut_ = nullptr;
     uint32_t last_ = 0;
     std::vector<Track> tracks_;
-    std::vector<WeightTrack> weights_;
+    bool movesWeights_ = false;
     std::vector<Channel> rest_;                  ///< channels that are never packed
     std::vector<std::vector<glm::dmat4>> truth_; ///< by half frame
     std::vector<std::vector<double>> trueWeights_;

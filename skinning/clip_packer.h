@@ -11,7 +11,7 @@ namespace supple::skinning {
 /// Packs the clips of a character: their channels become those of the packed clips, and Clip::packed has the words.
 /// After it, a vertex is at most `error` extents away from where the clip had it, and so are three points around each
 /// joint (skinning/pose_distance.h). Clip::packed.error is the largest distance that was found, on all frames and in
-/// their middles. Morph weights keep their floats, at fewer keys; what they move counts as in the rest pose.
+/// their middles. What morph weights move counts as in the rest pose.
 /// Character::clipRoot becomes the root of the clips as they were.
 ///
 /// Some things stay as they are: STEP and CUBICSPLINE channels, channels of nodes that move no joint, turns of more

@@ -326,6 +326,7 @@ NodeOrder nodeOrder(const cage::Character& character) {
         }
     }
     NodeOrder order;
+    order.targetCount = static_cast<uint32_t>(character.morphs.targets.size());
     std::vector<uint32_t> depths(skeleton.nodes.size(), 0);
     for (const uint32_t node : skeleton.parentsFirst) {
         const uint32_t parent = skeleton.nodes[node].parent;
@@ -349,7 +350,7 @@ NodeOrder nodeOrder(const cage::Character& character) {
 size_t clipBytes(const NodeOrder& order, const cage::Clip& clip) {
     constexpr size_t kElement = 16;
     size_t elements = 1, words = clip.packed.words.size() + clip.packed.coarseWords.size();
-    bool moves = clip.packed.words.empty();
+    bool moves = clip.packed.words.empty(), morphs = false;
     std::set<std::vector<float>> times;
     for (size_t c = clip.packed.channelCount; c < clip.channels.size(); ++c) {
         const Channel& channel = clip.channels[c];
@@ -358,9 +359,11 @@ size_t clipBytes(const NodeOrder& order, const cage::Clip& clip) {
             elements += 1 + (weights ? (channel.values.size() + 3) / 4 : channel.values.size() / channel.width());
             words += times.insert(channel.times).second ? channel.times.size() : 0;
             moves = moves || !weights;
+            morphs = morphs || weights;
         }
     }
-    return kElement * (elements + (moves ? order.nodes.size() : 0)) + sizeof(uint32_t) * words;
+    return kElement * (elements + (moves ? order.nodes.size() : 0) + (morphs ? order.targetCount : 0)) +
+           sizeof(uint32_t) * words;
 }
 
 bool ClipTable::isFoot(uint32_t node) const {

@@ -13,6 +13,7 @@ struct NodeOrder {
     std::vector<uint32_t> nodes;     ///< by place: the node
     std::vector<uint32_t> places;    ///< by node: its place, or kNone
     std::vector<uint32_t> levelEnds; ///< by depth: behind the last place
+    uint32_t targetCount = 0;        ///< morph targets
 };
 [[nodiscard]] NodeOrder nodeOrder(const cage::Character& character);
 

@@ -8,14 +8,15 @@ std::optional<cage::Clip> coarseClip(const NodeOrder& order, const cage::Clip& c
     if (clip.packed.coarseWords.empty()) {
         return std::nullopt;
     }
-    const Result<PackedClip> packed = readPackedWords(clip.packed.coarseWords, clip.duration, order.nodes.size());
+    const Result<PackedClip> packed =
+        readPackedWords(clip.packed.coarseWords, clip.duration, {order.nodes.size(), order.targetCount});
     if (!packed) {
         return std::nullopt;
     }
     cage::Clip coarse;
     coarse.name = clip.name;
     coarse.duration = clip.duration;
-    coarse.channels = channelsOf(*packed, clip.duration, order.nodes);
+    coarse.channels = channelsOf(*packed, clip.duration, order.nodes, order.targetCount);
     coarse.channels.insert(coarse.channels.end(), clip.channels.begin() + clip.packed.channelCount,
                            clip.channels.end());
     return coarse;

@@ -1,5 +1,6 @@
 #include "skinning/packed_clip.h"
 
+#include "shaders/pose/knots.h"
 #include "shaders/shared/pose.h"
 #include "skinning/bits.h"
 #include "skinning/rotation.h"
@@ -16,6 +17,9 @@ using namespace shared;
 using cage::ChannelPath;
 
 constexpr uint32_t kLow20 = 0xFFFFFu;
+constexpr uint32_t kMostWidth = 20, kMostPairBits = 129; // 2 elements, from any bit of the first
+constexpr int kMostShift = 15;
+constexpr size_t kMostDataBits = size_t{1} << 19;
 constexpr int kMostWhole = (1 << 19) - 1;
 constexpr int kMostConstantExponent = 27, kLeastConstantExponent = -3;
 constexpr double kLeastRate = 1e-6, kMostRate = 1e6; // frames a second
@@ -34,6 +38,9 @@ struct MaskBits {
     uint32_t shift;
 };
 constexpr MaskBits kMasks[2][3] = {{{0, 0}, {0, 16}, {1, 0}}, {{2, 0}, {2, 16}, {1, 16}}};
+MaskBits maskOf(const PackedProperty& own) {
+    return kMasks[own.isConstant ? 1 : 0][own.path == ChannelPath::weights ? 0 : static_cast<size_t>(own.path)];
+}
 
 /// Frames a second.
 double rateOf(uint32_t last, double duration) {
@@ -47,12 +54,17 @@ bool fits(const glm::ivec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kMostWhole;
 }
 
+/// Of a segment: a word for each property, then two.
+size_t recordElements(size_t animated) {
+    return (animated + 3) / 4 + (animated + 1) / 2;
+}
+
 /// Where the sections of a clip begin, in elements.
 struct Sections {
-    Sections(size_t nodeCount, size_t constants, size_t animated, uint32_t last)
-        : masks(kPackedHeadElements), groups((nodeCount + 15) / 16), constantsBegin(masks + groups),
+    Sections(size_t places, size_t constants, size_t animated, uint32_t last)
+        : masks(kPackedHeadElements), groups((places + 15) / 16), constantsBegin(masks + groups),
           statics(constantsBegin + (constants + 1) / 2), segments(statics + (animated + 3) / 4),
-          records(segments + segmentsOf(last)), data(records + animated * segmentsOf(last)) {}
+          records(segments + segmentsOf(last)), data(records + recordElements(animated) * segmentsOf(last)) {}
 
     size_t masks, groups, constantsBegin, statics, segments, records, data;
 };
@@ -88,27 +100,167 @@ uint32_t bitsAt(std::span<const uint32_t> words, size_t at, uint32_t count) {
     return value;
 }
 
-/// The knots of a segment: places in the property's lists.
-std::pair<size_t, size_t> knotsIn(const PackedProperty& property, uint32_t first, uint32_t end) {
+bool isOuter(size_t knot, size_t last) {
+    return knot % 2 == 0 || knot == last;
+}
+/// An inner knot, but for what it is off the line between its neighbors.
+glm::ivec3 lineAt(const std::array<uint32_t, 3>& frames, const glm::ivec3& before, const glm::ivec3& behind) {
+    return glm::ivec3(onLine(glm::vec3(before), glm::vec3(behind), frames[1] - frames[0], frames[2] - frames[0]));
+}
+
+/// Bits of three numbers.
+using Widths = std::array<uint32_t, 3>;
+uint32_t bitsOf(const Widths& widths) {
+    return widths[0] + widths[1] + widths[2];
+}
+/// Of numbers of both signs.
+uint32_t signedWidth(int low, int high) {
+    return static_cast<uint32_t>(
+        std::max(std::bit_width(static_cast<uint32_t>(low < 0 ? -low - 1 : 0)) + (low < 0 ? 1 : 0),
+                 std::bit_width(static_cast<uint32_t>(std::max(high, 0))) + (high > 0 ? 1 : 0)));
+}
+
+/// What is added to numbers of both signs, so that none is negative.
+glm::ivec3 halvesOf(const Widths& widths) {
+    return {1 << widths[0] >> 1, 1 << widths[1] >> 1, 1 << widths[2] >> 1};
+}
+
+/// What a property has in one segment.
+struct SegmentKnots {
+    uint32_t first = 0; ///< frame of the segment
+    std::span<const uint32_t> frames;
+    std::span<const glm::ivec3> values;
+    std::vector<glm::ivec3> offs; ///< one for each inner knot: what it is off the line
+    glm::ivec3 low{0};            ///< of the outer ones
+
+    [[nodiscard]] size_t last() const { return frames.size() - 1; }
+    [[nodiscard]] uint32_t mask() const {
+        uint32_t mask = 0;
+        for (const uint32_t frame : frames.first(last())) {
+            mask |= 1u << (frame - first);
+        }
+        return mask;
+    }
+    [[nodiscard]] Widths innerWidths() const {
+        glm::ivec3 least(0), most(0);
+        for (const glm::ivec3& off : offs) {
+            least = glm::min(least, off);
+            most = glm::max(most, off);
+        }
+        return {signedWidth(least.x, most.x), signedWidth(least.y, most.y), signedWidth(least.z, most.z)};
+    }
+    /// From `from` on, which is not above the lowest.
+    [[nodiscard]] Widths outerWidths(const glm::ivec3& from) const {
+        glm::ivec3 most(0);
+        for (size_t k = 0; k < values.size(); ++k) {
+            most = isOuter(k, last()) ? glm::max(most, values[k] - from) : most;
+        }
+        const auto width = [](int number) {
+            return static_cast<uint32_t>(std::bit_width(static_cast<uint32_t>(number)));
+        };
+        return {width(most.x), width(most.y), width(most.z)};
+    }
+};
+SegmentKnots knotsOf(const PackedProperty& property, uint32_t first, uint32_t end) {
     const auto begin = std::lower_bound(property.frames.begin(), property.frames.end(), first),
                last = std::lower_bound(begin, property.frames.end(), end);
-    return {static_cast<size_t>(begin - property.frames.begin()),
-            static_cast<size_t>(last - property.frames.begin()) + 1};
+    SegmentKnots knots{first, {begin, last + 1}, {}, {}, {}};
+    knots.values =
+        std::span(property.values).subspan(static_cast<size_t>(begin - property.frames.begin()), knots.frames.size());
+    knots.low = glm::min(knots.values.front(), knots.values.back());
+    for (size_t k = 0; k < knots.values.size(); ++k) {
+        if (isOuter(k, knots.last())) {
+            knots.low = glm::min(knots.low, knots.values[k]);
+        } else {
+            knots.offs.push_back(knots.values[k] - lineAt({knots.frames[k - 1], knots.frames[k], knots.frames[k + 1]},
+                                                          knots.values[k - 1], knots.values[k + 1]));
+        }
+    }
+    return knots;
 }
+
+/// How a property keeps the lowest number of a segment's outer knots, by axis: as a number of 5 bits, behind `base`
+/// times 16, times 2^shift.
+struct LowScale {
+    Widths base{16u, 16u, 16u}; ///< 16 is none; rotations have none
+    Widths shift{};
+
+    [[nodiscard]] int stepOf(size_t axis, int low) const {
+        return (low >> shift[axis]) - 16 * (static_cast<int>(base[axis]) - 16);
+    }
+    [[nodiscard]] int number(size_t axis, int step) const {
+        return (step + 16 * (static_cast<int>(base[axis]) - 16)) * (1 << shift[axis]);
+    }
+    /// The finest one that has room for numbers from `least` to `most`.
+    static LowScale of(const glm::ivec3& least, const glm::ivec3& most, bool hasBase) {
+        LowScale scale;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<size_t>(axis);
+            const auto fits = [&] { return scale.stepOf(a, least[axis]) >= -16 && scale.stepOf(a, most[axis]) < 16; };
+            for (uint32_t& shift = scale.shift[a]; shift <= kMostShift; ++shift) {
+                const int middle = ((least[axis] >> shift) + (most[axis] >> shift) + 1) >> 1;
+                scale.base[a] = hasBase ? static_cast<uint32_t>(std::clamp(((middle + 8) >> 4) + 16, 0, 31)) : 16u;
+                if (fits()) {
+                    break;
+                }
+            }
+        }
+        return scale;
+    }
+};
+
+/// All segments of a property that changes, and how it keeps them.
+struct PropertyKnots {
+    explicit PropertyKnots(const PackedProperty& property) {
+        const uint32_t last = property.frames.back();
+        for (uint32_t first = 0; first < last; first += kSegmentFrames) {
+            segments.push_back(knotsOf(property, first, std::min(first + kSegmentFrames, last)));
+        }
+        glm::ivec3 least = segments.front().low, most = least;
+        for (const SegmentKnots& own : segments) {
+            least = glm::min(least, own.low);
+            most = glm::max(most, own.low);
+        }
+        scale = LowScale::of(least, most, property.path != ChannelPath::rotation);
+    }
+    [[nodiscard]] glm::ivec3 lowOf(const SegmentKnots& own) const {
+        glm::ivec3 low;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<size_t>(axis);
+            low[axis] = scale.number(a, scale.stepOf(a, own.low[axis]));
+        }
+        return low;
+    }
+    [[nodiscard]] bool fit() const {
+        return std::all_of(segments.begin(), segments.end(), [&](const SegmentKnots& own) {
+            const Widths outer = own.outerWidths(lowOf(own)), inner = own.innerWidths();
+            return *std::max_element(outer.begin(), outer.end()) <= kMostWidth &&
+                   *std::max_element(inner.begin(), inner.end()) <= kMostWidth &&
+                   2 * bitsOf(outer) + bitsOf(inner) <= kMostPairBits;
+        });
+    }
+
+    std::vector<SegmentKnots> segments;
+    LowScale scale;
+};
 
 class ClipWriter {
 public:
-    ClipWriter(const PackedClip& clip, size_t nodeCount) : clip_(clip) {
+    ClipWriter(const PackedClip& clip, const PackedPlaces& places) : clip_(clip) {
         for (const PackedProperty& property : clip.properties) {
             (property.isConstant ? constants_ : animated_).push_back(&property);
         }
-        sections_ = Sections(nodeCount, constants_.size(), animated_.size(), clip.last);
+        sections_ = Sections(places.count(), constants_.size(), animated_.size(), clip.last);
     }
 
     std::optional<std::vector<uint32_t>> write(double duration) {
         const double rate = rateOf(clip_.last, duration);
-        if (animated_.size() > 0xFFFF || constants_.size() > 0xFFFF || !isRate(rate)) {
+        if (animated_.size() > 0xFFFF || constants_.size() > 0xFFFF || !isRate(rate) ||
+            !std::all_of(clip_.properties.begin(), clip_.properties.end(), fitsLayout)) {
             return std::nullopt;
+        }
+        for (const PackedProperty* const property : animated_) {
+            knots_.emplace_back(*property);
         }
         const SplitTime split = splitTime(rate);
         words_.assign(4 * sections_.data, 0u);
@@ -121,14 +273,15 @@ public:
         std::transform(std::begin(sections), std::end(sections), words_.begin() + 4,
                        [](size_t at) { return static_cast<uint32_t>(at); });
         putMasks();
-        const bool fit = putConstants() && putStatics();
-        for (uint32_t segment = 0; fit && segment < segmentsOf(clip_.last); ++segment) {
+        putConstants();
+        putStatics();
+        for (uint32_t segment = 0; segment < segmentsOf(clip_.last); ++segment) {
             if (!putSegment(segment)) {
                 return std::nullopt;
             }
         }
         words_.insert(words_.end(), 4 * size_t{kPackedPadding}, 0u);
-        return fit ? std::optional(std::move(words_)) : std::nullopt;
+        return std::move(words_);
     }
 
 private:
@@ -136,7 +289,7 @@ private:
 
     void putMasks() {
         for (const PackedProperty& property : clip_.properties) {
-            const MaskBits half = kMasks[property.isConstant ? 1 : 0][static_cast<size_t>(property.path)];
+            const MaskBits half = maskOf(property);
             word(sections_.masks + property.place / 16, half.word) |= 1u << (half.shift + property.place % 16);
         }
         uint32_t animated = 0, constants = 0;
@@ -149,85 +302,86 @@ private:
         }
     }
 
-    bool putConstants() {
+    void putConstants() {
         for (size_t i = 0; i < constants_.size(); ++i) {
             const PackedProperty& own = *constants_[i];
             const glm::uvec3 v = glm::uvec3(own.values.front()) & kLow20;
             uint32_t* const two = &words_[4 * sections_.constantsBegin + 2 * i];
             two[0] = v.x | v.y << 20;
             two[1] = v.y >> 12 | v.z << 8 | static_cast<uint32_t>(kMostConstantExponent - own.exponent) / 2 << 28;
-            if (!fitsLayout(own)) {
-                return false;
-            }
         }
-        return true;
     }
 
-    bool putStatics() {
+    void putStatics() {
         for (size_t i = 0; i < animated_.size(); ++i) {
             const PackedProperty& own = *animated_[i];
-            words_[4 * sections_.statics + i] = own.reference[0] | own.reference[1] << 9 | own.reference[2] << 18 |
+            const LowScale& scale = knots_[i].scale;
+            const Widths& base = own.path == ChannelPath::rotation ? own.reference : scale.base;
+            words_[4 * sections_.statics + i] = base[0] | base[1] << 5 | base[2] << 10 | scale.shift[0] << 15 |
+                                                scale.shift[1] << 19 | scale.shift[2] << 23 |
                                                 static_cast<uint32_t>(own.exponent - kLeastExponent) << 27;
-            if (!fitsLayout(own)) {
-                return false;
-            }
         }
-        return true;
     }
 
     bool putSegment(uint32_t segment) {
-        const uint32_t first = segment * kSegmentFrames, end = std::min(first + kSegmentFrames, clip_.last);
-        const size_t record = sections_.records + segment * animated_.size();
-        const uint32_t own[] = {static_cast<uint32_t>(record), static_cast<uint32_t>(words_.size() / 4), end - first,
-                                0u};
-        std::copy(std::begin(own), std::end(own), &words_[4 * (sections_.segments + segment)]);
-        BitWriter data;
+        const size_t record = sections_.records + segment * recordElements(animated_.size());
+        const auto data = static_cast<uint32_t>(words_.size() / 4);
+        BitWriter numbers;
         for (size_t i = 0; i < animated_.size(); ++i) {
-            if (data.length() >= 1u << 21 || !putRecord(*animated_[i], first, end, record + i, data)) {
+            if (numbers.length() >= kMostDataBits) {
                 return false;
             }
+            putRecord(knots_[i], segment, i, record, numbers);
         }
-        const std::vector<uint32_t>& whole = data.whole();
+        const uint32_t own[] = {static_cast<uint32_t>(record), data,
+                                std::min(kSegmentFrames, clip_.last - segment * kSegmentFrames), 0u};
+        std::copy(std::begin(own), std::end(own), &words_[4 * (sections_.segments + segment)]);
+        const std::vector<uint32_t>& whole = numbers.whole();
         words_.insert(words_.end(), whole.begin(), whole.end());
         return words_.size() < UINT32_MAX;
     }
 
-    bool putRecord(const PackedProperty& property, uint32_t first, uint32_t end, size_t element, BitWriter& data) {
-        const auto [begin, stop] = knotsIn(property, first, end);
-        glm::ivec3 low = property.values[begin], high = low;
-        uint32_t mask = 0;
-        for (size_t k = begin; k < stop; ++k) {
-            low = glm::min(low, property.values[k]);
-            high = glm::max(high, property.values[k]);
-            mask |= property.frames[k] < end ? 1u << (property.frames[k] - first) : 0u;
-        }
-        word(element, 0) = mask;
+    void putRecord(const PropertyKnots& property, uint32_t segment, size_t i, size_t element, BitWriter& data) {
+        const SegmentKnots& own = property.segments[segment];
+        const glm::ivec3 low = property.lowOf(own);
+        const Widths outer = own.outerWidths(low), inner = own.innerWidths();
         const auto offset = static_cast<uint32_t>(data.length());
-        std::array<uint32_t, 3> widths{};
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<size_t>(axis);
-            widths[a] = static_cast<uint32_t>(std::bit_width(static_cast<uint32_t>(high[axis] - low[axis])));
-            word(element, 1 + a) =
-                (static_cast<uint32_t>(low[axis]) & kLow20) | widths[a] << 20 | (offset >> 7 * a & 127u) << 25;
+        uint32_t sizes = offset << 30, lows = offset >> 2 << 15;
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            sizes |= outer[axis] << 5 * axis | inner[axis] << (15 + 5 * axis);
+            lows |= (static_cast<uint32_t>(property.scale.stepOf(axis, own.low[static_cast<int>(axis)])) & 31u)
+                    << 5 * axis;
         }
-        for (size_t k = begin; k < stop; ++k) {
-            for (int axis = 0; axis < 3; ++axis) {
-                data.put(static_cast<uint32_t>(property.values[k][axis] - low[axis]),
-                         widths[static_cast<size_t>(axis)]);
+        uint32_t* const words = &words_[4 * element];
+        uint32_t* const two = words + 4 * ((animated_.size() + 3) / 4) + 2 * i;
+        words[i] = own.mask();
+        two[0] = sizes;
+        two[1] = lows;
+        const auto put = [&](const glm::ivec3& numbers, const Widths& widths) {
+            for (uint32_t axis = 0; axis < 3; ++axis) {
+                data.put(static_cast<uint32_t>(numbers[static_cast<int>(axis)]), widths[axis]);
+            }
+        };
+        auto off = own.offs.begin();
+        for (size_t k = 0; k < own.values.size(); ++k) {
+            if (isOuter(k, own.last())) {
+                put(own.values[k] - low, outer);
+            } else {
+                put(*off++ + halvesOf(inner), inner);
             }
         }
-        return true;
     }
 
     const PackedClip& clip_;
     std::vector<const PackedProperty*> animated_, constants_;
+    std::vector<PropertyKnots> knots_; ///< of those that are animated
     Sections sections_{0, 0, 0, 1};
     std::vector<uint32_t> words_;
 };
 
 class ClipReader {
 public:
-    ClipReader(std::span<const uint32_t> words, size_t nodeCount) : words_(words), nodeCount_(nodeCount) {}
+    ClipReader(std::span<const uint32_t> words, const PackedPlaces& places) : words_(words), places_(places) {}
 
     Result<PackedClip> read(double duration) {
         if (!readHead(duration) || !readMasks()) {
@@ -256,7 +410,7 @@ private:
             return refuse("a packed clip of no frames, or too many");
         }
         const size_t animated = words_[2] & 0xFFFFu, constants = words_[2] >> 16;
-        sections_ = Sections(nodeCount_, constants, animated, clip_.last);
+        sections_ = Sections(places_.count(), constants, animated, clip_.last);
         const double rate = rateOf(clip_.last, duration);
         if (!isRate(rate)) {
             return refuse("a packed clip of no sound rate");
@@ -286,13 +440,14 @@ private:
                     };
                     const bool moves = has(kMasks[0][path]), stands = has(kMasks[1][path]);
                     const size_t place = 16 * group + bit;
-                    if ((moves || stands) && (place >= nodeCount_ || (moves && stands))) {
+                    const bool isThere = place < places_.nodes || (place < places_.count() && path == 0);
+                    if ((moves || stands) && (!isThere || (moves && stands))) {
                         return refuse("a packed clip of a node that is not there, or twice");
                     }
                     if (moves || stands) {
                         PackedProperty& own = clip_.properties.emplace_back();
                         own.place = static_cast<uint32_t>(place);
-                        own.path = static_cast<ChannelPath>(path);
+                        own.path = place < places_.nodes ? static_cast<ChannelPath>(path) : ChannelPath::weights;
                         own.isConstant = stands;
                         ++(stands ? constants : animated);
                     }
@@ -316,7 +471,10 @@ private:
             } else {
                 const uint32_t w = words_[4 * sections_.statics + animated++];
                 own.exponent = static_cast<int>(w >> 27) + kLeastExponent;
-                own.reference = {w & 511u, w >> 9 & 511u, w >> 18 & 511u};
+                const Widths base{w & 31u, w >> 5 & 31u, w >> 10 & 31u};
+                LowScale& scale = scales_.emplace_back();
+                scale.shift = {w >> 15 & 15u, w >> 19 & 15u, w >> 23 & 15u};
+                (own.path == ChannelPath::rotation ? own.reference : scale.base) = base;
             }
         }
     }
@@ -332,14 +490,15 @@ private:
         for (uint32_t segment = 0; segment < segmentsOf(clip_.last); ++segment) {
             const size_t element = sections_.segments + segment;
             const uint32_t first = segment * kSegmentFrames, frames = std::min(kSegmentFrames, clip_.last - first);
-            const size_t record = sections_.records + segment * changing.size();
+            const size_t record = sections_.records + segment * recordElements(changing.size());
             if (word(element, 0) != record || word(element, 1) != begin || word(element, 2) != frames ||
                 word(element, 3) != 0) {
                 return refuse("a segment of a packed clip that is elsewhere");
             }
             size_t length = 0;
             for (size_t i = 0; i < changing.size(); ++i) {
-                if (!readRecord(*changing[i], first, frames, record + i, begin, length)) {
+                if (!readRecord(*changing[i], recordAt(record, changing.size(), i), {first, first + frames}, begin,
+                                length)) {
                     return false;
                 }
             }
@@ -349,52 +508,86 @@ private:
                refuse("a packed clip that is longer or shorter than its segments");
     }
 
-    bool readRecord(PackedProperty& own, uint32_t first, uint32_t frames, size_t element, size_t begin,
-                    size_t& length) {
-        const uint32_t mask = word(element, 0);
-        std::array<uint32_t, 3> widths{};
-        glm::ivec3 low;
-        uint32_t offset = 0;
+    struct Record {
+        uint32_t mask = 0, offset = 0;
+        Widths outer{}, inner{};
+        glm::ivec3 low{0};
+    };
+    [[nodiscard]] Record recordAt(size_t element, size_t count, size_t i) const {
+        const uint32_t* const words = &words_[4 * element];
+        const uint32_t* const two = words + 4 * ((count + 3) / 4) + 2 * i;
+        Record record{words[i], two[0] >> 30 | two[1] >> 15 << 2, {}, {}, {}};
         for (uint32_t axis = 0; axis < 3; ++axis) {
-            const uint32_t w = word(element, 1 + axis);
-            low[static_cast<int>(axis)] = signExtended(w);
-            widths[axis] = w >> 20 & 31u;
-            offset |= (w >> 25) << 7 * axis;
+            record.outer[axis] = two[0] >> 5 * axis & 31u;
+            record.inner[axis] = two[0] >> (15 + 5 * axis) & 31u;
+            const int step = static_cast<int>((two[1] >> 5 * axis & 31u) ^ 16u) - 16;
+            record.low[static_cast<int>(axis)] = scales_[i].number(axis, step);
         }
-        const bool sound = (mask & 1u) != 0 && (frames == 32 || mask >> frames == 0) && offset == length &&
-                           *std::max_element(widths.begin(), widths.end()) <= 20;
-        const uint32_t knots = static_cast<uint32_t>(std::popcount(mask)) + 1,
-                       width = widths[0] + widths[1] + widths[2];
-        const size_t end = length + size_t{knots} * width;
+        return record;
+    }
+    /// `segment`: its first frame and its last one. `length`: bits of its data so far.
+    bool readRecord(PackedProperty& own, const Record& record, std::pair<uint32_t, uint32_t> segment, size_t begin,
+                    size_t& length) {
+        const uint32_t frames = segment.second - segment.first;
+        const uint32_t outer = bitsOf(record.outer), inner = bitsOf(record.inner);
+        const bool sound = (record.mask & 1u) != 0 && (frames == 32 || record.mask >> frames == 0) &&
+                           record.offset == length &&
+                           *std::max_element(record.outer.begin(), record.outer.end()) <= kMostWidth &&
+                           *std::max_element(record.inner.begin(), record.inner.end()) <= kMostWidth &&
+                           2 * outer + inner <= kMostPairBits;
+        const auto last = static_cast<size_t>(std::popcount(record.mask));
+        const size_t bits = (last / 2 + 1 + last % 2) * outer + last / 2 * inner;
         // Equal values need no knots in between: what is read stays in proportion to its words.
-        if (!sound || (width == 0 && mask != 1) || begin + (end + 127) / 128 + kPackedPadding > words_.size() / 4) {
+        if (!sound || (bits == 0 && record.mask != 1) ||
+            begin + (length + bits + 127) / 128 + kPackedPadding > words_.size() / 4) {
             return refuse("a record of a packed clip that does not fit");
         }
-        const std::span<const uint32_t> data = words_.subspan(4 * begin);
-        for (uint32_t frame = 0; frame <= frames; ++frame) {
-            if (frame < frames && (mask >> frame & 1u) == 0) {
-                continue;
+        std::vector<uint32_t> knots;
+        for (uint32_t frame = 0; frame < frames; ++frame) {
+            if ((record.mask >> frame & 1u) != 0) {
+                knots.push_back(segment.first + frame);
             }
-            glm::ivec3 value = low;
+        }
+        knots.push_back(segment.second);
+        return takeKnots(own, knots, readNumbers(record, knots, words_.subspan(4 * begin), length));
+    }
+    static std::vector<glm::ivec3> readNumbers(const Record& record, std::span<const uint32_t> knots,
+                                               std::span<const uint32_t> data, size_t& length) {
+        std::vector<glm::ivec3> numbers;
+        for (size_t k = 0; k < knots.size(); ++k) {
+            const bool isInner = !isOuter(k, knots.size() - 1);
+            const Widths& widths = isInner ? record.inner : record.outer;
+            glm::ivec3& number = numbers.emplace_back(isInner ? -halvesOf(widths) : record.low);
             for (int axis = 0; axis < 3; ++axis) {
-                value[axis] += static_cast<int>(bitsAt(data, length, widths[static_cast<size_t>(axis)]));
+                number[axis] += static_cast<int>(bitsAt(data, length, widths[static_cast<size_t>(axis)]));
                 length += widths[static_cast<size_t>(axis)];
             }
-            if (!own.frames.empty() && own.frames.back() == first + frame) {
-                if (own.values.back() != value) { // the border of two segments: both have it
-                    return refuse("a packed clip that jumps between two segments");
-                }
-                continue;
-            }
-            own.frames.push_back(first + frame);
-            own.values.push_back(value);
         }
+        for (size_t k = 1; k + 1 < knots.size(); k += 2) {
+            numbers[k] += lineAt({knots[k - 1], knots[k], knots[k + 1]}, numbers[k - 1], numbers[k + 1]);
+        }
+        return numbers;
+    }
+    bool takeKnots(PackedProperty& own, std::span<const uint32_t> frames, std::span<const glm::ivec3> values) {
+        if (!std::all_of(values.begin(), values.end(), fits)) {
+            return refuse("a number of a packed clip that is too large");
+        }
+        if (!own.frames.empty()) { // the border of two segments: both have it
+            if (own.values.back() != values.front()) {
+                return refuse("a packed clip that jumps between two segments");
+            }
+            frames = frames.subspan(1);
+            values = values.subspan(1);
+        }
+        own.frames.insert(own.frames.end(), frames.begin(), frames.end());
+        own.values.insert(own.values.end(), values.begin(), values.end());
         return true;
     }
 
     std::span<const uint32_t> words_;
-    size_t nodeCount_;
+    PackedPlaces places_;
     Sections sections_{0, 0, 0, 1};
+    std::vector<LowScale> scales_; ///< of properties that change
     PackedClip clip_;
     const char* fault_ = "";
 };
@@ -413,16 +606,17 @@ glm::dvec3 toQuarterTangent(const glm::dquat& q) {
 }
 
 glm::dquat referenceTurn(const std::array<uint32_t, 3>& reference) {
-    return fromQuarterTangent((glm::dvec3(reference[0], reference[1], reference[2]) - 255.0) / 255.0);
+    return fromQuarterTangent((glm::dvec3(reference[0], reference[1], reference[2]) - 15.0) / 15.0);
 }
 
 std::array<uint32_t, 3> referenceNear(const glm::dquat& rotation) {
-    const glm::dvec3 r = glm::round(toQuarterTangent(rotation) * 255.0) + 255.0;
+    const glm::dvec3 r = glm::round(toQuarterTangent(rotation) * 15.0) + 15.0;
     return {static_cast<uint32_t>(r.x), static_cast<uint32_t>(r.y), static_cast<uint32_t>(r.z)};
 }
 
 bool fitsLayout(const PackedProperty& property) {
-    return std::all_of(property.values.begin(), property.values.end(), fits);
+    return std::all_of(property.values.begin(), property.values.end(), fits) &&
+           (property.isConstant || PropertyKnots(property).fit());
 }
 
 void removeEqualKnots(PackedProperty& property) {
@@ -458,12 +652,12 @@ int constantExponent(const glm::dvec3& value) {
     return exponent;
 }
 
-std::optional<std::vector<uint32_t>> packedWords(const PackedClip& clip, double duration, size_t nodeCount) {
-    return ClipWriter(clip, nodeCount).write(duration);
+std::optional<std::vector<uint32_t>> packedWords(const PackedClip& clip, double duration, const PackedPlaces& places) {
+    return ClipWriter(clip, places).write(duration);
 }
 
-Result<PackedClip> readPackedWords(std::span<const uint32_t> words, double duration, size_t nodeCount) {
-    return ClipReader(words, nodeCount).read(duration);
+Result<PackedClip> readPackedWords(std::span<const uint32_t> words, double duration, const PackedPlaces& places) {
+    return ClipReader(words, places).read(duration);
 }
 
 std::vector<SegmentPlaces> segmentsIn(std::span<const uint32_t> words) {
@@ -473,7 +667,8 @@ std::vector<SegmentPlaces> segmentsIn(std::span<const uint32_t> words) {
     std::vector<SegmentPlaces> places(count);
     for (uint32_t s = 0; s < count; ++s) {
         const uint32_t records = elements[4 * size_t{s}], data = elements[4 * size_t{s} + 1];
-        places[s] = {records, records + animated, data, s + 1 < count ? elements[4 * size_t{s} + 5] : end};
+        places[s] = {records, records + static_cast<uint32_t>(recordElements(animated)), data,
+                     s + 1 < count ? elements[4 * size_t{s} + 5] : end};
     }
     return places;
 }
@@ -486,12 +681,19 @@ bool areTwins(std::span<const uint32_t> fine, std::span<const uint32_t> coarse) 
     return fine.size() > 1 && coarse.size() > 1 && fine[1] == coarse[1];
 }
 
-std::vector<cage::Channel> channelsOf(const PackedClip& clip, double duration, std::span<const uint32_t> nodes) {
+std::vector<cage::Channel> channelsOf(const PackedClip& clip, double duration, std::span<const uint32_t> nodes,
+                                      size_t targets) {
     std::vector<cage::Channel> channels;
     for (const PackedProperty& property : clip.properties) {
         cage::Channel& channel = channels.emplace_back();
-        channel.node = nodes[property.place];
         channel.path = property.path;
+        size_t width = 3;
+        if (property.path == ChannelPath::weights) {
+            channel.firstTarget = 3 * (property.place - static_cast<uint32_t>(nodes.size()));
+            width = std::min<size_t>(width, targets - channel.firstTarget);
+        } else {
+            channel.node = nodes[property.place];
+        }
         const bool turns = property.path == ChannelPath::rotation;
         const glm::dquat reference =
             turns && !property.isConstant ? referenceTurn(property.reference) : glm::dquat(1, 0, 0, 0);
@@ -499,13 +701,9 @@ std::vector<cage::Channel> channelsOf(const PackedClip& clip, double duration, s
             const double part = property.isConstant ? 0.0 : static_cast<double>(property.frames[k]) / clip.last;
             channel.times.push_back(static_cast<float>(duration * part));
             const glm::dvec3 v = glm::dvec3(property.values[k]) * std::ldexp(1.0, -property.exponent);
-            if (turns) {
-                const glm::dquat q = reference * fromQuarterTangent(v);
-                channel.values.insert(channel.values.end(), {static_cast<float>(q.x), static_cast<float>(q.y),
-                                                             static_cast<float>(q.z), static_cast<float>(q.w)});
-            } else {
-                channel.values.insert(channel.values.end(),
-                                      {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+            const glm::vec4 value = turns ? floatsOf(reference * fromQuarterTangent(v)) : glm::vec4(v, 0.0);
+            for (size_t axis = 0; axis < (turns ? 4 : width); ++axis) {
+                channel.values.push_back(value[static_cast<int>(axis)]);
             }
         }
     }

@@ -5,7 +5,10 @@
 // LINEAR channels do. So a packed clip is a clip with fewer keys, whose values are rounded: channelsOf() gives it.
 //
 // A rotation is kept as the tangent of a quarter of its angle, along its axis, from a reference near all of them:
-// nearly even, and decoded without a root.
+// nearly even, and decoded without a root. Morph weights are kept in threes, as translations are.
+//
+// Every second knot of a segment, and its last one, is an outer knot. The inner knot between two of these is kept as
+// what it is off their line (shaders/pose/knots.h): mostly little, so that it takes few bits.
 #pragma once
 
 #include "base/result.h"
@@ -21,15 +24,21 @@
 
 namespace supple::skinning {
 
-/// One property of a node.
+/// What a packed clip can move: the nodes of the clip table, and behind them morph targets, three in one place.
+struct PackedPlaces {
+    size_t nodes = 0, targets = 0;
+    [[nodiscard]] size_t count() const { return nodes + (targets + 2) / 3; }
+};
+
+/// One property of a node, or the weights of three morph targets.
 struct PackedProperty {
-    uint32_t place = 0; ///< of the node in the clip table
+    uint32_t place = 0; ///< of PackedPlaces
     cage::ChannelPath path = cage::ChannelPath::translation;
     bool isConstant = false;
     int exponent = 0; ///< values are multiples of 2^-exponent
-    /// Used only by rotations that change: the quarter tangent of a rotation near all of them. 255 encodes 0, and 0 and
-    /// 510 encode -1 and 1.
-    std::array<uint32_t, 3> reference{255u, 255u, 255u};
+    /// Used only by rotations that change: the quarter tangent of a rotation near all of them. 15 encodes 0, and 0 and
+    /// 30 encode -1 and 1.
+    std::array<uint32_t, 3> reference{15u, 15u, 15u};
     std::vector<uint32_t> frames;   ///< of the knots, rising: the first and the last of each segment among them
     std::vector<glm::ivec3> values; ///< one a knot; of a constant one
 };
@@ -51,7 +60,8 @@ inline constexpr uint32_t kMostPackedFrames = 1u << 20;
 [[nodiscard]] glm::dquat referenceTurn(const std::array<uint32_t, 3>& reference);
 [[nodiscard]] std::array<uint32_t, 3> referenceNear(const glm::dquat& rotation);
 
-/// Whether the values of a property have room in the layout.
+/// Whether the values of a property have room in the layout: 20 bits each, and 129 for an inner knot with both its
+/// neighbors.
 [[nodiscard]] bool fitsLayout(const PackedProperty& property);
 /// Removes the knots inside of segments all of whose values are equal: the layout has no such knots.
 void removeEqualKnots(PackedProperty& property);
@@ -65,10 +75,11 @@ inline constexpr uint32_t kPackedPadding = 2;
 /// Nothing if a number is too large for its field. `nodeCount`: of the clip table. There are four words an element, and
 /// offsets count from the first.
 [[nodiscard]] std::optional<std::vector<uint32_t>> packedWords(const PackedClip& clip, double duration,
-                                                               size_t nodeCount);
+                                                               const PackedPlaces& places);
 
 /// Reads words that may be anybody's; refuses all that a reader of them would have to check.
-[[nodiscard]] Result<PackedClip> readPackedWords(std::span<const uint32_t> words, double duration, size_t nodeCount);
+[[nodiscard]] Result<PackedClip> readPackedWords(std::span<const uint32_t> words, double duration,
+                                                 const PackedPlaces& places);
 
 /// What is read of a time within one segment alone: records of its own, and data of its own. Elements from the first of
 /// the words on.
@@ -83,8 +94,8 @@ struct SegmentPlaces {
 /// Whether words may be those of a packed clip's coarse twin: both are sound, and have the same frames.
 [[nodiscard]] bool areTwins(std::span<const uint32_t> fine, std::span<const uint32_t> coarse);
 
-/// The properties as channels, in their order. `nodes`: by place, as ClipTable has them.
+/// The properties as channels, in their order. `nodes`: by place, as ClipTable has them. `targets`: how many there are.
 [[nodiscard]] std::vector<cage::Channel> channelsOf(const PackedClip& clip, double duration,
-                                                    std::span<const uint32_t> nodes);
+                                                    std::span<const uint32_t> nodes, size_t targets);
 
 } // namespace supple::skinning

@@ -35,8 +35,8 @@ public:
     }
     /// From here on, reach() counts the morph targets that drivers set by a node.
     void takeDrivers();
-    /// Distance moved per unit of a morph target's weight, in the rest pose.
-    [[nodiscard]] double targetReach(uint32_t target) const { return targetReach_[target]; }
+    /// By morph target: distance moved per unit of its weight, in the rest pose.
+    [[nodiscard]] std::span<const double> targetReaches() const { return targetReach_; }
 
     /// The vertices farthest from the joints that they follow, and all vertices.
     [[nodiscard]] std::span<const uint32_t> watched() const { return watched_; }

@@ -1,6 +1,7 @@
 #include "skinning/pose_twin.h"
 
 #include "shaders/pose/affine.h"
+#include "shaders/pose/knots.h"
 #include "shaders/pose/limbs.h"
 #include "shaders/pose/straight.h"
 #include "shaders/pose/time.h"

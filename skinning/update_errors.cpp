@@ -69,7 +69,7 @@ private:
         }
         for (size_t t = 0; t < a.weights.size(); ++t) {
             const double off = a.weights[t] + (b.weights[t] - a.weights[t]) * part - exact.weights[t];
-            morphed += std::abs(off) * distance_.targetReach(static_cast<uint32_t>(t));
+            morphed += std::abs(off) * distance_.targetReaches()[t];
         }
         return std::sqrt(squares) + morphed;
     }

@@ -17,7 +17,7 @@ supple_test_packages=(
     xvfb xauth xdotool
     qt6-declarative-dev qml6-module-qtquick qml6-module-qtquick-controls
     qml6-module-qtquick-templates qml6-module-qtqml-workerscript
-    abigail-tools pkg-config
+    abigail-tools pkg-config spirv-cross
     doxygen python3
     clang libc++-dev libc++abi-dev
     blender python3-numpy chromium

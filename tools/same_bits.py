@@ -3,7 +3,8 @@
 
 Each file is baked with every scheme, rate and mapping, in the first clip's pose where it has a clip, and drawn as a small crowd in a
 view; the files that the two programs write must have the same bytes. Where both refuse with the same exit code and the same message
-they agree as well. Prints a line for each difference and the counts at the end. Exit code: 0 no difference, 1 differences, 2 bad usage.
+they agree as well. With --positions, OLD and NEW may run on two drivers: of what is baked, only positions are compared, and a driver
+may refuse what is too large for it. Prints a line for each difference and the counts at the end. Exit code: 0 no difference, 1 differences, 2 bad usage.
 """
 import argparse
 import concurrent.futures
@@ -37,11 +38,18 @@ def digest(content):
     return hashlib.sha256(content).hexdigest()
 
 
-def run(program, arguments):
+def positions_of(obj):
+    return b"\n".join(line for line in obj.splitlines() if line.startswith(b"v "))
+
+
+def run(program, arguments, positions):
     """What came of one call: exit code, message, and the hash of each file that it wrote, by name."""
     with tempfile.TemporaryDirectory(prefix="same_bits_") as folder:
         done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, check=False)
-        written = {p.name: digest(p.read_bytes()) for p in sorted(Path(folder).iterdir())} if done.returncode == 0 else {}
+        contents = {p.name: p.read_bytes() for p in sorted(Path(folder).iterdir())} if done.returncode == 0 else {}
+    if positions:
+        contents = {name: positions_of(content) for name, content in contents.items() if name.endswith(".obj")}
+    written = {name: digest(content) for name, content in contents.items()}
     message = "" if done.returncode == 0 else done.stderr.decode(errors="replace").strip()
     return {"exit": done.returncode, "message": message, "files": written}
 
@@ -72,8 +80,9 @@ def cases_of(path, clip, options):
 class Kept:
     """Results of OLD, kept in a file between calls; of another program they are not believed."""
 
-    def __init__(self, path, program):
+    def __init__(self, path, program, positions):
         self.path = path
+        self.positions = positions
         self.program = digest(Path(program).read_bytes())
         self.results = {}
         if path and path.exists():
@@ -82,14 +91,18 @@ class Kept:
                 self.results = stored["results"]
 
     def result(self, program, arguments, content):
-        key = " ".join([content, *arguments])
+        key = " ".join([content, *arguments, *(["positions"] if self.positions else [])])
         if key not in self.results:
-            self.results[key] = run(program, arguments)
+            self.results[key] = run(program, arguments, self.positions)
         return self.results[key]
 
     def write(self):
         if self.path:
             self.path.write_text(json.dumps({"program": self.program, "results": dict(self.results)}, indent=0))
+
+
+def is_refused(result):
+    return result["exit"] in EXIT_CODES - {0}
 
 
 def difference(old, new):
@@ -111,6 +124,7 @@ def main():
     parser.add_argument("files", metavar="FILE", nargs="+", type=Path, help="glTF, GLB and OBJ files, or folders of them")
     parser.add_argument("--jobs", type=int, default=2, help="calls at a time (2)")
     parser.add_argument("--flags", default="", help="more flags of every call, such as --flags='--skinning dual-quaternion'")
+    parser.add_argument("--positions", action="store_true", help="only these, without views: OLD and NEW run on two drivers")
     parser.add_argument("--no-views", action="store_true", help="without views, for builds whose profile has no --hashes")
     parser.add_argument("--keep", type=Path, help="JSON that keeps OLD's results, so that the next call takes half the time")
     options = parser.parse_args()
@@ -121,12 +135,13 @@ def main():
     for path in options.files:
         if not path.exists():
             parser.error(f"{path} is not there")
-    kept = Kept(options.keep, old)
-    counts = {"same": 0, "refused alike": 0, "different": 0}
+    kept = Kept(options.keep, old, options.positions)
+    options.no_views = options.no_views or options.positions
+    counts = {"same": 0, "refused alike": 0, "different": 0, "refused by one": 0}
 
     def compare(case):
         name, arguments, content = case
-        results = (kept.result(old, arguments, content), run(new, arguments))
+        results = (kept.result(old, arguments, content), run(new, arguments, options.positions))
         return name, *results
 
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
@@ -135,6 +150,9 @@ def main():
         cases = [(name, arguments, digest(Path(path).read_bytes()))
                  for path, clip in zip(paths, clips) for name, arguments in cases_of(path, clip, options)]
         for number, (name, before, after) in enumerate(pool.map(compare, cases), 1):
+            if options.positions and is_refused(before) != is_refused(after) and {before["exit"], after["exit"]} <= EXIT_CODES:
+                counts["refused by one"] += 1
+                continue
             what = difference(before, after)
             counts["different" if what else "refused alike" if before["exit"] else "same"] += 1
             if what:
@@ -143,9 +161,10 @@ def main():
                 print(f"{number} of {len(cases)}", file=sys.stderr, flush=True)
                 kept.write()
     kept.write()
-    print(f"{len(paths)} files, {len(cases)} cases: {counts['same']} with the same bytes, "
-          f"{counts['refused alike']} refused alike, {counts['different']} different")
-    return 1 if counts["different"] or not cases else 0
+    print(f"{len(paths)} files, {len(cases)} cases: {counts['same']} with the same {'positions' if options.positions else 'bytes'}, "
+          f"{counts['refused alike']} refused alike, {counts['different']} different"
+          + (f", {counts['refused by one']} refused by one driver" if options.positions else ""))
+    return 1 if counts["different"] or not counts["same"] and options.positions or not cases else 0
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ namespace supple::runtime {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
-constexpr uint32_t kVersion = 11;
+constexpr uint32_t kVersion = 12;
 constexpr uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -85,12 +85,12 @@ void writeAll(const Prepared& prepared, const std::string& madeBy, Writer& write
 }
 
 /// Whether what may be anybody's is the coarse twin of a clip that is packed, or there is none.
-Status checkTwin(const cage::Clip& clip, size_t nodeCount) {
+Status checkTwin(const cage::Clip& clip, const skinning::PackedPlaces& places) {
     const std::vector<uint32_t>& words = clip.packed.coarseWords;
     if (words.empty()) {
         return success();
     }
-    const Result<skinning::PackedClip> twin = skinning::readPackedWords(words, clip.duration, nodeCount);
+    const Result<skinning::PackedClip> twin = skinning::readPackedWords(words, clip.duration, places);
     if (!twin) {
         return twin.error();
     }
@@ -111,15 +111,16 @@ Result<bool> unpackClips(cage::Character& character) {
             continue;
         }
         order = order ? std::move(order) : skinning::nodeOrder(character);
-        const Result<skinning::PackedClip> packed =
-            skinning::readPackedWords(clip.packed.words, clip.duration, order->nodes.size());
+        const skinning::PackedPlaces places{order->nodes.size(), order->targetCount};
+        const Result<skinning::PackedClip> packed = skinning::readPackedWords(clip.packed.words, clip.duration, places);
         if (!packed) {
             return Error{packed.error().code, "clip " + clip.name + ": " + packed.error().message};
         }
-        if (const Status sound = checkTwin(clip, order->nodes.size()); !sound) {
+        if (const Status sound = checkTwin(clip, places); !sound) {
             return Error{sound.error().code, "clip " + clip.name + ": its coarse twin: " + sound.error().message};
         }
-        std::vector<cage::Channel> channels = skinning::channelsOf(*packed, clip.duration, order->nodes);
+        std::vector<cage::Channel> channels =
+            skinning::channelsOf(*packed, clip.duration, order->nodes, order->targetCount);
         clip.packed.channelCount = static_cast<uint32_t>(channels.size());
         clip.channels.insert(clip.channels.begin(), std::make_move_iterator(channels.begin()),
                              std::make_move_iterator(channels.end()));

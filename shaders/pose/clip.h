@@ -1,6 +1,7 @@
 // Sampling a clip, node by node: the keys of a channel, STEP, LINEAR and CUBICSPLINE as glTF has them, clamped outside.
 // Needs table(), tableFloats(), packedFloat() and `push`: GLSL has them from tables.glsl; in C++ this is the inside of a
 // class (skinning/pose_twin.cpp), as nodes.h, layers.h and root.h are.
+#include "shaders/pose/knots.h"
 #include "shaders/pose/nodes.h"
 #include "shaders/pose/packed.h"
 
@@ -99,28 +100,38 @@ Transform clipTransform(uint clip, vec2 time, uint node) {
     return t;
 }
 
-float clipMorphWeight(uint clip, vec2 time, uint target) {
-    uint targets = table(push.clips + clip).y;
-    uvec4 entry = targets != 0u ? table(targets + target) : uvec4(0u); // (channel, place in a value, numbers of a value, 0)
-    SUPPLE_PRECISE float weight = packedFloat(push.restWeights, target);
-    if (entry.x != 0u) {
-        uvec4 channel = table(entry.x);
-        KeySpan span = keysAt(channel, time);
-        bool cubic = (channel.x & 3u) == kCubicKeys;
-        uint stride = entry.z;
-        uint own = (cubic ? 3u * span.key + 1u : span.key) * stride + entry.y;
-        uint next = own + (cubic ? 3u : 1u) * stride;
-        weight = packedFloat(channel.w, own);
-        if (span.seconds > 0.0f) {
-            float other = packedFloat(channel.w, next);
-            if (cubic) {
-                vec4 w = splineWeights(span);
-                weight = (weight * w.x + packedFloat(channel.w, own + stride) * w.y) +
-                         (other * w.z + packedFloat(channel.w, next - stride) * w.w);
-            } else {
-                weight = weight + (other - weight) * span.t;
-            }
+// A morph target's weight, of a channel that is not packed.
+float channelWeight(uvec4 entry, vec2 time) { // (channel, place in a value, numbers of a value, 0)
+    uvec4 channel = table(entry.x);
+    KeySpan span = keysAt(channel, time);
+    bool cubic = (channel.x & 3u) == kCubicKeys;
+    uint stride = entry.z;
+    uint own = (cubic ? 3u * span.key + 1u : span.key) * stride + entry.y;
+    uint next = own + (cubic ? 3u : 1u) * stride;
+    SUPPLE_PRECISE float weight = packedFloat(channel.w, own);
+    if (span.seconds > 0.0f) {
+        float other = packedFloat(channel.w, next);
+        if (cubic) {
+            vec4 w = splineWeights(span);
+            weight = (weight * w.x + packedFloat(channel.w, own + stride) * w.y) +
+                     (other * w.z + packedFloat(channel.w, next - stride) * w.w);
+        } else {
+            weight = weight + (other - weight) * span.t;
         }
     }
     return weight;
+}
+// Four morph weights.
+vec4 clipMorphWeights(uint clip, vec2 time, uint quad) {
+    uvec4 own = table(push.clips + clip);
+    SUPPLE_PRECISE vec4 weights = tableFloats(push.restWeights + quad);
+    for (uint packed = own.x & kPackedClip; packed != 0u; packed = 0u) {
+        weights = packedWeights(own.x ^ kPackedClip, time, quad, weights);
+    }
+    uint count = own.y != 0u ? min(push.morphCount - 4u * quad, 4u) : 0u;
+    for (uint k = 0u; k < count; ++k) {
+        uvec4 entry = table(own.y + 4u * quad + k);
+        if (entry.x != 0u) weights = withComponent(weights, k, channelWeight(entry, time));
+    }
+    return weights;
 }

@@ -126,22 +126,31 @@ Transform posedTransform(uint first, uint node, SUPPLE_INOUT(Motion) sinceBegin)
     return pose;
 }
 
-float posedMorphWeight(uint first, uint target) {
+// Four morph weights of what is played.
+vec4 playedMorphWeights(uint first, uint quad) {
     uvec4 header = state(first);
-    SUPPLE_PRECISE float pose = packedFloat(push.restWeights, target);
+    uint count = min(push.morphCount - 4u * quad, 4u);
+    SUPPLE_PRECISE vec4 pose = tableFloats(push.restWeights + quad);
     for (uint i = 0u; i < header.x; ++i) {
         Layer layer = layerAt(first + kStateElements + i * kLayerElements);
-        float weight = masked(layer, (push.nodeCount + 3u) / 4u, target);
-        if (weight != 0.0f) {
-            float to = clipMorphWeight(layer.clip, clipTime(layer, layer.time), target);
-            if (kAdds && (layer.flags & kLayerAdds) != 0u) {
-                float from = clipMorphWeight(layer.clip, clipTime(layer, referenceTime(layer)), target);
-                pose = pose + (to - from) * weight;
-            } else if (weight == 1.0f) {
-                pose = to;
-            } else {
-                pose = pose + (to - pose) * weight;
-            }
+        SUPPLE_PRECISE vec4 shares = vec4(layer.weight);
+        if (layer.mask != 0u) {
+            shares = shares * maskValues((layer.mask - 1u) * push.maskStride + (push.nodeCount + 3u) / 4u + quad);
+        }
+        // A loop, so that the code is there once: what the layer adds to, then what it shows.
+        bool adds = kAdds && (layer.flags & kLayerAdds) != 0u;
+        SUPPLE_PRECISE vec4 from = pose, to = pose;
+        for (uint sampled = shares == vec4(0.0f) ? 2u : adds ? 0u : 1u; sampled < 2u; ++sampled) {
+            vec2 time = layer.time;
+            if (sampled == 0u) time = referenceTime(layer);
+            from = to;
+            to = clipMorphWeights(layer.clip, clipTime(layer, time), quad);
+        }
+        for (uint k = 0u; k < count; ++k) {
+            float share = component(shares, k), before = component(pose, k), after = component(to, k);
+            SUPPLE_PRECISE float mixed = before + (after - (adds ? component(from, k) : before)) * share;
+            if (share == 1.0f && !adds) mixed = after;
+            if (share != 0.0f) pose = withComponent(pose, k, mixed);
         }
     }
     return pose;
@@ -159,14 +168,7 @@ vec4 morphWeights(uint first, uint quad) {
     if ((flags & kStateHostWeights) != 0u) {
         weights = stateFloats(first + kStateElements + kMaxPlaybackLayers * kLayerElements + quad);
     } else if ((flags & kStateBindPose) == 0u) {
-        uint count = min(push.morphCount - 4u * quad, 4u);
-        for (uint k = 0u; k < count; ++k) {
-            SUPPLE_PRECISE float weight = posedMorphWeight(first, 4u * quad + k);
-            if (k == 0u) weights.x = weight;
-            if (k == 1u) weights.y = weight;
-            if (k == 2u) weights.z = weight;
-            if (k == 3u) weights.w = weight;
-        }
+        weights = playedMorphWeights(first, quad);
     }
     return weights;
 }

@@ -175,7 +175,8 @@ void pack(const cage::Character& character, skinning::PoseMemory& memory) {
     for (const cage::Clip& clip : packed.clips) {
         demand(clip.packed.error <= 1e-3, "the error is larger than was asked");
         if (!clip.packed.words.empty()) {
-            demand(skinning::readPackedWords(clip.packed.words, clip.duration, order.nodes.size()).ok(),
+            demand(skinning::readPackedWords(clip.packed.words, clip.duration, {order.nodes.size(), order.targetCount})
+                       .ok(),
                    "words that were written are refused");
         }
         skinning::sampleClip(packed, clip, 0.4 * clip.duration, memory.pose);

@@ -15,6 +15,16 @@ T newHandle() {
     return std::bit_cast<T>(++last);
 }
 
+VKAPI_ATTR void VKAPI_CALL deviceProperties(VkPhysicalDevice, VkPhysicalDeviceProperties2* properties) {
+    for (auto* next = static_cast<VkBaseOutStructure*>(properties->pNext); next != nullptr; next = next->pNext) {
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES) {
+            reinterpret_cast<VkPhysicalDeviceDriverProperties*>(next)->driverID = fake->driver;
+        } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES) {
+            reinterpret_cast<VkPhysicalDeviceFloatControlsProperties*>(next)->shaderSignedZeroInfNanPreserveFloat32 =
+                fake->keepsSignedZeros;
+        }
+    }
+}
 VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice, const VkBufferCreateInfo* info, const VkAllocationCallbacks*,
                                             VkBuffer* buffer) {
     *buffer = newHandle<VkBuffer>();
@@ -168,6 +178,7 @@ VKAPI_ATTR void VKAPI_CALL pushConstants(VkCommandBuffer, VkPipelineLayout, VkSh
 FakeVulkan::FakeVulkan() {
     fake = this;
     Functions& vk = device.vk;
+    vk.GetPhysicalDeviceProperties2 = deviceProperties;
     vk.CreateBuffer = createBuffer;
     vk.DestroyBuffer = destroyBuffer;
     vk.GetBufferMemoryRequirements = bufferRequirements;

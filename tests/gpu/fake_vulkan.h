@@ -23,10 +23,12 @@ struct FakeVulkan {
     Device device;
 
     // What the device says and does.
-    VkDeviceSize alignment = 64;        ///< of buffers
-    int64_t failAllocation = -1;        ///< index of the vkAllocateMemory that fails
-    int64_t failPipeline = -1;          ///< index of the vkCreateComputePipelines that fails
-    std::vector<uint64_t> queryResults; ///< value and availability of each timestamp
+    VkDeviceSize alignment = 64; ///< of buffers
+    VkDriverId driver = VK_DRIVER_ID_MESA_LLVMPIPE;
+    VkBool32 keepsSignedZeros = VK_TRUE; ///< knows SignedZeroInfNanPreserve
+    int64_t failAllocation = -1;         ///< index of the vkAllocateMemory that fails
+    int64_t failPipeline = -1;           ///< index of the vkCreateComputePipelines that fails
+    std::vector<uint64_t> queryResults;  ///< value and availability of each timestamp
 
     // What was called.
     struct BoundBuffer {

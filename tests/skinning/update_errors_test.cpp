@@ -60,13 +60,13 @@ TEST(UpdateErrors, MorphTargetsCount) {
     tube.clips.push_back(test::clipOf({test::channel(0, ChannelPath::weights, {0, 1}, {0, 1})}));
     const PoseDistance distance(tube);
     const UpdateFacts facts = measureUpdates(tube);
-    EXPECT_GT(distance.targetReach(0), 0.0);
+    EXPECT_GT(distance.targetReaches()[0], 0.0);
     EXPECT_TRUE(facts.ofClips[0].closes);
     EXPECT_FALSE(facts.ofClips[1].closes) << "it jumps back";
     for (size_t n = 0; n < 3; ++n) {
         // At a turn of 4 a second, in the middle of an interval: half of it on either side.
         const double half = static_cast<double>(size_t{1} << n) / shared::kUpdateSteps;
-        EXPECT_NEAR(facts.ofClips[0].every[n] * facts.extent, 2.0 * half * distance.targetReach(0), 1e-6) << n;
+        EXPECT_NEAR(facts.ofClips[0].every[n] * facts.extent, 2.0 * half * distance.targetReaches()[0], 1e-6) << n;
         EXPECT_NEAR(facts.ofClips[1].every[n], 0.0, 1e-6);
     }
 }

@@ -98,6 +98,23 @@ TEST_F(Convert, GlbToGlbPosesAlike) {
     }
 }
 
+TEST_F(Convert, PackedClipsAreWrittenAsTheyPlay) {
+    fs::copy_file(kWren, file("wren.glb"));
+    ASSERT_EQ(run("cook wren.glb -o wren.supple --scheme polygons --rate 1").exitCode, 0);
+    ASSERT_EQ(run("convert wren.supple -o after.glb").exitCode, 0);
+    const std::string pose = " --scheme cage --time 2.9 --clip idle"; // a blink
+    ASSERT_EQ(runOnDevice("bake wren.supple -o before.obj" + pose).exitCode, 0);
+    ASSERT_EQ(runOnDevice("bake after.glb -o after.obj" + pose).exitCode, 0);
+    const std::vector<glm::vec3> before = vertices(file("before.obj"));
+    const std::vector<glm::vec3> after = vertices(file("after.obj"));
+    ASSERT_GT(before.size(), 1000u);
+    ASSERT_EQ(before.size(), after.size());
+    for (size_t v = 0; v < before.size(); ++v) {
+        ASSERT_LT(glm::distance(before[v], after[v]), 2e-6f) << "vertex " << v;
+    }
+    EXPECT_EQ(read(file("after.glb")).clips.at(0).channels.back().width(), 1u) << "the last part with targets has one";
+}
+
 TEST_F(Convert, CreasesByAngle) {
     writeText(file("cube.obj"), supple::test::kCubeObj);
     ASSERT_EQ(run("convert cube.obj -o soft.glb --creases-from-angle 91").exitCode, 0);

@@ -9,6 +9,7 @@
 #include "tools/gltf/material_writer.h"
 #include "tools/gltf/mesh_writer.h"
 #include "tools/gltf/packer.h"
+#include "tools/gltf/part_weights.h"
 #include "tools/gltf/still_mesh_writer.h"
 
 #include <algorithm>
@@ -162,8 +163,8 @@ json writeSkin(const Skin& palette, std::span<const uint32_t> joints, Packer& pa
 
 class ClipWriter {
 public:
-    ClipWriter(const std::vector<Part>& parts, Packer& packer, Warnings& warnings)
-        : parts_(parts), packer_(packer), warnings_(warnings) {}
+    ClipWriter(const Character& character, Packer& packer, Warnings& warnings)
+        : parts_(character.parts), restWeights_(character.morphs.weights), packer_(packer), warnings_(warnings) {}
 
     json write(const std::vector<Clip>& clips) {
         json animations = json::array();
@@ -174,7 +175,7 @@ public:
             }
             json channels = json::array();
             json samplers = json::array();
-            for (const Channel& channel : clip.channels) {
+            for (const Channel& channel : channelsOf(clip)) {
                 for (const uint32_t node : nodesOf(channel)) {
                     channels.push_back(
                         {{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", pathOf(channel)}}}});
@@ -198,6 +199,22 @@ public:
     }
 
 private:
+    /// As glTF has them: one for the weights of each part that has targets of its own.
+    [[nodiscard]] std::vector<Channel> channelsOf(const Clip& clip) const {
+        std::vector<Channel> channels;
+        std::copy_if(clip.channels.begin(), clip.channels.end(), std::back_inserter(channels),
+                     [](const Channel& channel) { return channel.path != ChannelPath::weights; });
+        std::set<uint32_t> written;
+        for (const Part& part : parts_) {
+            if (part.targetCount > 0 && written.insert(part.firstTarget).second) {
+                if (std::optional<Channel> weights = partWeights(clip, part, restWeights_)) {
+                    channels.push_back(std::move(*weights));
+                }
+            }
+        }
+        return channels;
+    }
+
     /// Those whose property the channel moves: parts may share morph targets.
     [[nodiscard]] std::vector<uint32_t> nodesOf(const Channel& channel) const {
         std::vector<uint32_t> nodes;
@@ -266,6 +283,7 @@ private:
     }
 
     const std::vector<Part>& parts_;
+    std::span<const float> restWeights_;
     Packer& packer_;
     Warnings& warnings_;
     std::map<std::vector<float>, size_t> inputs_; ///< channels share their key times
@@ -357,7 +375,7 @@ GlbFile toGlb(const Character& character) {
         root["skins"].push_back(writeSkin(character.skin, joints, packer));
     }
     writeMaterials(character.materials, character.images, packer, root, file.warnings);
-    json animations = ClipWriter(character.parts, packer, file.warnings).write(character.clips);
+    json animations = ClipWriter(character, packer, file.warnings).write(character.clips);
     if (!animations.empty()) {
         root["animations"] = std::move(animations);
     }

@@ -1,0 +1,45 @@
+#include "gpu/fast_math.h"
+
+#include <algorithm>
+
+namespace supple::gpu {
+namespace {
+
+constexpr size_t kHeaderWords = 5;
+constexpr uint32_t kOpEntryPoint = 15, kOpExecutionMode = 16, kOpCapability = 17;
+constexpr uint32_t kSignedZeroInfNanPreserveCapability = 4466, kSignedZeroInfNanPreserveMode = 4461;
+
+constexpr uint32_t instruction(uint32_t words, uint32_t op) {
+    return words << 16 | op;
+}
+
+} // namespace
+
+bool hasFastMath(const Device& device) {
+    VkPhysicalDeviceFloatControlsProperties floats{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES};
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    driver.pNext = &floats;
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    properties.pNext = &driver;
+    device.vk.GetPhysicalDeviceProperties2(device.physicalDevice, &properties);
+    return driver.driverID == VK_DRIVER_ID_MOLTENVK && floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE;
+}
+
+std::vector<uint32_t> withoutFastMath(std::span<const uint32_t> spirv) {
+    std::vector<uint32_t> words(spirv.begin(), spirv.begin() + kHeaderWords);
+    words.insert(words.end(), {instruction(2, kOpCapability), kSignedZeroInfNanPreserveCapability});
+    for (size_t at = kHeaderWords; at < spirv.size();) {
+        const uint32_t length = std::max(spirv[at] >> 16, 1u), op = spirv[at] & 0xFFFFu;
+        const size_t end = std::min<size_t>(at + length, spirv.size());
+        words.insert(words.end(), spirv.begin() + static_cast<ptrdiff_t>(at),
+                     spirv.begin() + static_cast<ptrdiff_t>(end));
+        if (op == kOpEntryPoint && length > 2) { // (execution model, function, ..); execution modes come right behind
+            words.insert(words.end(),
+                         {instruction(4, kOpExecutionMode), spirv[at + 2], kSignedZeroInfNanPreserveMode, 32u});
+        }
+        at = end;
+    }
+    return words;
+}
+
+} // namespace supple::gpu

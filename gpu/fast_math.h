@@ -1,0 +1,21 @@
+// Drivers that hand kernels to a compiler with fast math, and what keeps them from it. SPIR-V says by NoContraction
+// which operations must be rounded as they are written. Metal's fast math may move operations about all the same, and
+// then two patches that have an edge in common no longer have the same bits there.
+#pragma once
+
+#include "gpu/device.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace supple::gpu {
+
+/// Whether the driver compiles with fast math unless a kernel has the execution mode SignedZeroInfNanPreserve, and
+/// knows that mode: MoltenVK. Others keep to NoContraction, and would compute slower with it.
+[[nodiscard]] bool hasFastMath(const Device& device);
+
+/// The kernel with that execution mode for 32-bit floats. SPIR-V from version 1.4 on, with one entry point.
+[[nodiscard]] std::vector<uint32_t> withoutFastMath(std::span<const uint32_t> spirv);
+
+} // namespace supple::gpu
