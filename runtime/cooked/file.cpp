@@ -17,7 +17,7 @@ namespace supple::runtime {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
-constexpr uint32_t kVersion = 11;
+constexpr uint32_t kVersion = 12;
 constexpr uint32_t kByteOrder = 0x01020304;
 
 struct Header {

@@ -152,7 +152,7 @@ TEST(Cooked, FilesKeepJiggles) {
               place + "jiggle 0: its numbers are out of range");
     EXPECT_EQ(spoiled([](Character& c) { c.weights.jiggles.pop_back(); }),
               place + "not one weight of jiggles a vertex");
-    for (const cage::JiggleWeight wrong : {cage::JiggleWeight{1, 0.5f}, {0, 0.0f}, {0, 1.5f}, {0, -INFINITY}}) {
+    for (const cage::PaintedWeight wrong : {cage::PaintedWeight{1, 0.5f}, {0, 0.0f}, {0, 1.5f}, {0, -INFINITY}}) {
         EXPECT_EQ(spoiled([&](Character& c) { c.weights.jiggles[3] = wrong; }),
                   place + "a vertex names no jiggle, or has no weight above 0 to 1");
     }

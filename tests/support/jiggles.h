@@ -23,9 +23,9 @@ inline cage::Character jigglingWren(const std::string& extensions = "\"X\":{}") 
     for (const glm::vec3& p : wren.cage.positions) {
         const bool middle = p.y > 0.8f && p.y < 1.2f;
         const bool head = p.y > 1.5f;
-        wren.weights.jiggles.push_back(middle ? cage::JiggleWeight{0, (p.y - 0.8f) / 0.4f}
-                                       : head ? cage::JiggleWeight{1, 1.0f}
-                                              : cage::JiggleWeight{});
+        wren.weights.jiggles.push_back(middle ? cage::PaintedWeight{0, (p.y - 0.8f) / 0.4f}
+                                       : head ? cage::PaintedWeight{1, 1.0f}
+                                              : cage::PaintedWeight{});
     }
     return wren;
 }

@@ -11,7 +11,7 @@ PlayedJiggles::PlayedJiggles(const cage::Character& character, const skinning::C
                              uint32_t transition)
     : character_(&character), table_(&table), layout_(layout), twin_(clips, layout, transition), way_(identity()) {
     for (uint32_t v = 0; v < character.weights.jiggles.size(); ++v) {
-        if (character.weights.jiggles[v].jiggle != cage::kNone) {
+        if (character.weights.jiggles[v].index != cage::kNone) {
             vertices_.push_back(v);
         }
     }
@@ -50,7 +50,7 @@ void PlayedJiggles::run(std::span<const uint32_t> state, std::span<const float> 
         way_ = way;
         deformUnplaced(cage);
         for (size_t i = 0; i < vertices_.size(); ++i) {
-            const cage::Jiggle& own = character_->jiggles[character_->weights.jiggles[vertices_[i]].jiggle];
+            const cage::Jiggle& own = character_->jiggles[character_->weights.jiggles[vertices_[i]].index];
             jiggling_[i] =
                 jiggledStep(jiggling_[i], vec3(cage[vertices_[i]]), now, skinning::jiggleSpring(own), own.limit);
         }
