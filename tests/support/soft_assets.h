@@ -1,4 +1,4 @@
-// A sample that jiggles.
+// Samples of what is soft.
 #pragma once
 
 #include "cage/gltf/reader.h"
@@ -11,8 +11,8 @@
 
 namespace supple::test {
 
-/// A round figure that hops (tests/support/belly.py).
-inline const std::string kBellyFile = std::string(SUPPLE_TEST_DATA) + "/jiggle/belly.glb";
+/// The same with a cape (tests/support/cape.py).
+inline const std::string kCapedFile = std::string(SUPPLE_TEST_DATA) + "/cloth/caped.glb";
 
 /// Wren, her middle painted to jiggle softly, her head to jiggle fast. `extensions`: of the file.
 inline cage::Character jigglingWren(const std::string& extensions = "\"X\":{}") {
