@@ -151,7 +151,8 @@ private:
     gpu::BoundSets sets_; ///< by window
 };
 
-Result<std::unique_ptr<CageKernels>> makeKernels(const gpu::Device& device, gpu::Pipelines& pipelines, SoftKind kind) {
+Result<std::unique_ptr<CageKernels>> makeSoftKernels(const gpu::Device& device, gpu::Pipelines& pipelines,
+                                                     SoftKind kind) {
     Result<skinning::SoftKernels> made = skinning::SoftKernels::create(device, pipelines, kind);
     if (!made) {
         return made.error();
@@ -161,7 +162,8 @@ Result<std::unique_ptr<CageKernels>> makeKernels(const gpu::Device& device, gpu:
     return std::unique_ptr<CageKernels>(std::move(kernels));
 }
 
-Result<std::unique_ptr<CageStage>> makeStage(const CageStageDesc& desc, const SoftOfAsset& soft, CageKernels& kernels) {
+Result<std::unique_ptr<CageStage>> makeSoftStage(const CageStageDesc& desc, const SoftOfAsset& soft,
+                                                 CageKernels& kernels) {
     skinning::SoftKernels& own = static_cast<SoftStageKernels&>(kernels).kernels;
     const Status prepared = own.prepare(desc.instances->skinning(), desc.asset->firstInfluences != 0);
     if (!prepared) {
@@ -175,7 +177,7 @@ Result<std::unique_ptr<CageStage>> makeStage(const CageStageDesc& desc, const So
     return std::unique_ptr<CageStage>(std::move(stage));
 }
 
-Status makePipelines(bool wanted, const PlannedStages& planned, const CageKernels& kernels) {
+Status makeSoftPipelines(bool wanted, const PlannedStages& planned, const CageKernels& kernels) {
     if (!wanted) {
         return success();
     }
@@ -183,36 +185,36 @@ Status makePipelines(bool wanted, const PlannedStages& planned, const CageKernel
     return made ? success() : made.error();
 }
 
-bool wants(const CageStageDesc& desc, const SoftOfAsset& soft) {
+bool wantsSoft(const CageStageDesc& desc, const SoftOfAsset& soft) {
     return desc.deforms && desc.instances->room().soft && soft.count > 0;
 }
 
 } // namespace
 
 Result<std::unique_ptr<CageKernels>> makeJiggleKernels(const gpu::Device& device, gpu::Pipelines& pipelines) {
-    return makeKernels(device, pipelines, SoftKind::jiggle);
+    return makeSoftKernels(device, pipelines, SoftKind::jiggle);
 }
 bool wantsJiggle(const CageStageDesc& desc) {
-    return wants(desc, desc.asset->jiggles);
+    return wantsSoft(desc, desc.asset->jiggles);
 }
 Result<std::unique_ptr<CageStage>> makeJiggle(const CageStageDesc& desc, CageKernels& kernels) {
-    return makeStage(desc, desc.asset->jiggles, kernels);
+    return makeSoftStage(desc, desc.asset->jiggles, kernels);
 }
 Status makeJigglePipelines(const PlannedStages& planned, const CageKernels& kernels) {
-    return makePipelines(planned.jiggles, planned, kernels);
+    return makeSoftPipelines(planned.jiggles, planned, kernels);
 }
 
 Result<std::unique_ptr<CageKernels>> makeClothKernels(const gpu::Device& device, gpu::Pipelines& pipelines) {
-    return makeKernels(device, pipelines, SoftKind::cloth);
+    return makeSoftKernels(device, pipelines, SoftKind::cloth);
 }
 bool wantsCloth(const CageStageDesc& desc) {
-    return wants(desc, desc.asset->cloths);
+    return wantsSoft(desc, desc.asset->cloths);
 }
 Result<std::unique_ptr<CageStage>> makeCloth(const CageStageDesc& desc, CageKernels& kernels) {
-    return makeStage(desc, desc.asset->cloths, kernels);
+    return makeSoftStage(desc, desc.asset->cloths, kernels);
 }
 Status makeClothPipelines(const PlannedStages& planned, const CageKernels& kernels) {
-    return makePipelines(planned.cloths, planned, kernels);
+    return makeSoftPipelines(planned.cloths, planned, kernels);
 }
 
 } // namespace supple::runtime

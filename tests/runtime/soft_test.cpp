@@ -92,6 +92,7 @@ double playedBesideTheCpu(SoftGroup& soft, SoftGroup& stiff) {
         for (uint32_t i = 0; i < count; ++i) {
             EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
             const double apart = cagesApart(soft.shown(i), stiff.shown(i));
+            EXPECT_TRUE(f > 0 || apart == 0.0 || !soft.character().cloths.empty()) << "at rest in the pose";
             EXPECT_TRUE(f < 4 || apart > 0.0) << "in the second step goals have a speed to differ from";
             moved = std::max(moved, apart);
         }
@@ -104,17 +105,21 @@ TEST_F(Soft, HaveTheWordsOfTheCpu) {
     constexpr uint32_t kCount = 5;
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
-        const SuppleAsset wren = own.createAsset(jigglingWren()), caped = own.asset(kCapedFile);
-        for (const SuppleAsset asset : {wren, caped}) {
-            for (const SuppleSkinning skinning :
-                 {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
-                SoftGroup soft(own, playedGroup(asset, kCount, kSoft, skinning));
-                SoftGroup stiff(own, playedGroup(asset, kCount, 0, skinning));
-                ASSERT_TRUE(soft.crowd.valid() && stiff.crowd.valid());
-                const double moved = playedBesideTheCpu(soft, stiff);
-                EXPECT_GT(moved, 0.02);
-                EXPECT_LT(moved, asset.id == wren.id ? 0.07 : 0.9) << "the limit, and a turn; the cape's length";
-            }
+        const auto compare = [&](SuppleAsset asset, SuppleSkinning skinning, double most) {
+            SoftGroup soft(own, playedGroup(asset, kCount, kSoft, skinning));
+            SoftGroup stiff(own, playedGroup(asset, kCount, 0, skinning));
+            ASSERT_TRUE(soft.crowd.valid() && stiff.crowd.valid());
+            const double moved = playedBesideTheCpu(soft, stiff);
+            EXPECT_GT(moved, 0.02);
+            EXPECT_LT(moved, most);
+        };
+        const SuppleAsset wren = own.createAsset(jigglingWren());
+        for (const SuppleSkinning skinning :
+             {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
+            compare(wren, skinning, 0.07); // the limit, and a turn
+        }
+        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
+            compare(own.asset(kCapedFile), skinning, 0.9); // the cape's length
         }
     }
 }
@@ -295,7 +300,7 @@ TEST_F(Soft, AreRefusedWhereTheyCannotBe) {
 TEST_F(Soft, TakeWindowsOfInstances) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
-        LimitedDevice limited(mapping, [](WrappedVulkan& says) { says.maxStorageBufferRange = 1u << 20; });
+        LimitedDevice limited(mapping, [](WrappedVulkan& says) { says.maxStorageBufferRange = 1u << 18; });
         ASSERT_NE(limited.context(), nullptr);
         constexpr uint32_t kCount = 40;
         CrowdContext &small = *limited.context(), &large = context(mapping);
