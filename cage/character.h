@@ -114,12 +114,12 @@ struct Influence {
     float weight = 0.0f;
 };
 
-/// Which of Character::jiggles a vertex has, and how much of it.
-struct JiggleWeight {
-    uint32_t jiggle = kNone; ///< kNone: the vertex does not jiggle
-    float weight = 0.0f;     ///< above 0 to 1, if it does
+/// Which of a character's jiggles or cloths is painted on a vertex, and how much of it.
+struct PaintedWeight {
+    uint32_t index = kNone; ///< kNone: none is
+    float weight = 0.0f;    ///< above 0 to 1, if one is
 
-    bool operator==(const JiggleWeight&) const = default;
+    bool operator==(const PaintedWeight&) const = default;
 };
 
 /// Skin weights, packed by start index: influences of cage vertex v are [starts[v], starts[v+1]), weights sum to 1,
@@ -127,7 +127,9 @@ struct JiggleWeight {
 struct SkinWeights {
     std::vector<uint32_t> starts; ///< vertexCount + 1 entries
     std::vector<Influence> influences;
-    std::vector<JiggleWeight> jiggles; ///< one per cage vertex; or empty: none jiggles
+    // One per cage vertex; or empty: none is painted. A vertex that has both is cloth.
+    std::vector<PaintedWeight> jiggles; ///< of Character::jiggles
+    std::vector<PaintedWeight> cloths;  ///< of Character::cloths; the weight is what part of its mobility it has
 };
 
 enum class Interpolation { step, linear, cubicSpline };
@@ -246,6 +248,24 @@ struct Jiggle {
     float limit = 0.05f;    ///< the farthest that a vertex of weight 1 gets, in model space
 
     bool operator==(const Jiggle&) const = default;
+};
+
+/// A cape, a skirt, a soft ball: painted vertices hang on the others, and hold their distances to each other
+/// (SUPPLE_deformers, docs/cloth.md). A compliance is by how much a constraint gives: 0 is rigid.
+struct Cloth {
+    float stretch = 1e-7f;           ///< compliance of edges
+    float shear = 1e-7f;             ///< of diagonals
+    float bend = 1e-3f;              ///< of vertices two apart
+    bool volume = false;             ///< what it encloses is kept
+    float tether = 1.02f;            ///< the farthest from where it hangs, by the way over edges; 0: any
+    float drag = 0.1f;               ///< of its speed in the model, lost in 1/60 s
+    float air = 0.05f;               ///< of its speed through the air, lost in 1/60 s
+    float gravity = 9.81f;           ///< in model space
+    float hitRadius = 0.01f;         ///< against colliders
+    uint32_t substeps = 4;           ///< of a step of 1/60 s
+    std::vector<uint32_t> colliders; ///< SpringBones::colliders
+
+    bool operator==(const Cloth&) const = default;
 };
 
 /// A joint that swings. Without numbers of its own it has VRM's.
@@ -476,6 +496,7 @@ struct Character {
     std::vector<Expression> expressions;
     std::vector<PoseDriver> drivers;
     std::vector<Jiggle> jiggles; ///< that weights.jiggles name
+    std::vector<Cloth> cloths;   ///< that weights.cloths name
     SpringBones springBones;
     std::vector<Clip> clips;
     /// What moves the character in its clips as they were before they were packed (skinning::findRoot); kNone: ask.

@@ -1,10 +1,10 @@
 #include "cage/character_check.h"
 
-#include "cage/jiggle.h"
 #include "cage/limits.h"
 #include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/skeleton.h"
+#include "cage/soft.h"
 #include "cage/solved_driver.h"
 #include "cage/trim.h"
 
@@ -67,7 +67,7 @@ public:
     void parts();
     void skeleton();
     void skin();
-    void jiggles();
+    void soft();
     void morphs();
     void expressions();
     void drivers();
@@ -219,18 +219,27 @@ void Check::skin() {
     require(sound, "an influence names no joint, or has no finite weight");
 }
 
-void Check::jiggles() {
+void Check::soft() {
     for (size_t j = 0; j < character_.jiggles.size(); ++j) {
         require(isSound(character_.jiggles[j]), at("jiggle", j) + ": its numbers are out of range");
     }
-    const std::vector<JiggleWeight>& weights = character_.weights.jiggles;
-    require(weights.empty() || weights.size() == character_.cage.vertexCount(), "not one weight of jiggles a vertex");
-    require(std::all_of(weights.begin(), weights.end(),
-                        [&](const JiggleWeight& own) {
-                            return own.jiggle == kNone ||
-                                   (own.jiggle < character_.jiggles.size() && own.weight > 0.0f && own.weight <= 1.0f);
-                        }),
-            "a vertex names no jiggle, or has no weight above 0 to 1");
+    for (size_t c = 0; c < character_.cloths.size(); ++c) {
+        require(isSound(character_.cloths[c]), at("cloth", c) + ": its numbers are out of range");
+        require(below(character_.cloths[c].colliders, character_.springBones.colliders.size()),
+                at("cloth", c) + ": it names no collider of spring bones");
+    }
+    const auto check = [&](const std::vector<PaintedWeight>& weights, size_t count, const std::string& what) {
+        require(weights.empty() || weights.size() == character_.cage.vertexCount(),
+                "not one weight of " + what + "s a vertex");
+        require(std::all_of(weights.begin(), weights.end(),
+                            [&](const PaintedWeight& own) {
+                                return own.index == kNone ||
+                                       (own.index < count && own.weight > 0.0f && own.weight <= 1.0f);
+                            }),
+                "a vertex names no " + what + ", or has no weight above 0 to 1");
+    };
+    check(character_.weights.jiggles, character_.jiggles.size(), "jiggle");
+    check(character_.weights.cloths, character_.cloths.size(), "cloth");
 }
 
 void Check::morphs() {
@@ -397,7 +406,7 @@ Status checkCharacter(const Character& character) {
         check.skeleton();
         check.parts();
         check.skin();
-        check.jiggles();
+        check.soft();
         check.morphs();
         check.expressions();
         check.drivers();

@@ -128,16 +128,16 @@ void appendWeights(const PartCage& from, SkinWeights& weights) {
     }
 }
 
-/// Behind appendWeights() of the part, whose vertices begin at `firstVertex`.
-void appendJiggles(const PartCage& from, uint32_t firstVertex, Character& character) {
-    std::vector<JiggleWeight>& all = character.weights.jiggles;
-    const size_t count = from.cage.vertexCount();
-    appendPadded(all, firstVertex, from.weights.jiggles, count, JiggleWeight{});
-    const auto first = static_cast<uint32_t>(character.jiggles.size());
-    for (size_t v = firstVertex; v < all.size(); ++v) {
-        all[v].jiggle += all[v].jiggle != kNone ? first : 0;
+/// Behind appendWeights() of the part, whose vertices begin at `firstVertex`: what is painted of `more`.
+template <class T>
+void appendPainted(const std::vector<PaintedWeight>& weights, const std::vector<T>& more, uint32_t firstVertex,
+                   size_t count, std::vector<PaintedWeight>& allWeights, std::vector<T>& all) {
+    appendPadded(allWeights, firstVertex, weights, count, PaintedWeight{});
+    const auto first = static_cast<uint32_t>(all.size());
+    for (size_t v = firstVertex; v < allWeights.size(); ++v) {
+        allWeights[v].index += allWeights[v].index != kNone ? first : 0;
     }
-    appendTo(character.jiggles, from.jiggles);
+    appendTo(all, more);
 }
 
 /// The clips' channels of the weights of each part's targets.
@@ -255,26 +255,28 @@ void takeTargets(const Character& character, size_t index, std::span<const uint3
     }
 }
 
-/// The jiggles that a part's vertices have, in the order of the character's.
-void takeJiggles(const Character& character, std::span<const uint32_t> vertices, Character& taken) {
-    if (character.weights.jiggles.empty()) {
+/// What is painted on a part's vertices, in the order of the character's.
+template <class T>
+void takePainted(const std::vector<PaintedWeight>& allWeights, const std::vector<T>& all,
+                 std::span<const uint32_t> vertices, std::vector<PaintedWeight>& weights, std::vector<T>& taken) {
+    if (allWeights.empty()) {
         return;
     }
-    std::vector<uint32_t> places(character.jiggles.size(), kNone);
+    std::vector<uint32_t> places(all.size(), kNone);
     for (const uint32_t v : vertices) {
-        const JiggleWeight& own = taken.weights.jiggles.emplace_back(character.weights.jiggles[v]);
-        if (own.jiggle != kNone) {
-            places[own.jiggle] = 0;
+        const PaintedWeight& own = weights.emplace_back(allWeights[v]);
+        if (own.index != kNone) {
+            places[own.index] = 0;
         }
     }
-    for (size_t j = 0; j < places.size(); ++j) {
-        if (places[j] != kNone) {
-            places[j] = static_cast<uint32_t>(taken.jiggles.size());
-            taken.jiggles.push_back(character.jiggles[j]);
+    for (size_t k = 0; k < places.size(); ++k) {
+        if (places[k] != kNone) {
+            places[k] = static_cast<uint32_t>(taken.size());
+            taken.push_back(all[k]);
         }
     }
-    for (JiggleWeight& own : taken.weights.jiggles) {
-        own.jiggle = own.jiggle != kNone ? places[own.jiggle] : kNone;
+    for (PaintedWeight& own : weights) {
+        own.index = own.index != kNone ? places[own.index] : kNone;
     }
 }
 
@@ -406,7 +408,8 @@ Character takePart(const Character& character, size_t index) {
                                         influences.begin() + character.weights.starts[v + 1]);
         taken.weights.starts.push_back(static_cast<uint32_t>(taken.weights.influences.size()));
     }
-    takeJiggles(character, piece.vertices, taken);
+    takePainted(character.weights.jiggles, character.jiggles, piece.vertices, taken.weights.jiggles, taken.jiggles);
+    takePainted(character.weights.cloths, character.cloths, piece.vertices, taken.weights.cloths, taken.cloths);
     std::vector<uint32_t> places(character.cage.vertexCount(), kNone);
     for (uint32_t v = 0; v < piece.vertices.size(); ++v) {
         places[piece.vertices[v]] = v;
@@ -453,7 +456,10 @@ CageNames joinParts(std::vector<PartCage> parts, Character& character) {
         appendShading(part.cage, shading, character.cage);
         appendCage(part.cage, character.sourceVertexCount, character.cage);
         appendWeights(part, character.weights);
-        appendJiggles(part, firstVertex, character);
+        const size_t count = part.cage.vertexCount();
+        appendPainted(part.weights.jiggles, part.jiggles, firstVertex, count, character.weights.jiggles,
+                      character.jiggles);
+        appendPainted(part.weights.cloths, part.cloths, firstVertex, count, character.weights.cloths, character.cloths);
         character.sourceVertexCount += part.sourceVertexCount;
         character.seamVertexCount += part.seamVertexCount;
         character.parts.push_back(std::move(part.part));

@@ -18,10 +18,11 @@ namespace supple::cage {
 struct PartCage {
     Part part;
     Cage cage;
-    SkinWeights weights;             ///< of the joints of part.joints; jiggles are those of the part
+    SkinWeights weights;             ///< of the joints of part.joints; what is painted is the part's own
     Morphs morphs;                   ///< targets of the part alone
     std::vector<PoseDriver> drivers; ///< of these targets
     std::vector<Jiggle> jiggles;
+    std::vector<Cloth> cloths; ///< with colliders of the character
     uint32_t sourceVertexCount = 0;
     uint32_t seamVertexCount = 0;
     std::vector<Damage> damages;

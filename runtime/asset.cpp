@@ -1,6 +1,8 @@
 #include "runtime/asset.h"
 
 #include "shaders/shared/pose.h"
+#include "shaders/shared/soft.h"
+#include "skinning/cloth_table.h"
 #include "skinning/jiggle_table.h"
 
 #include <algorithm>
@@ -213,7 +215,7 @@ Status Asset::makeClips(const gpu::Device& device) {
 }
 
 Status Asset::makeJiggles(const gpu::Device& device) {
-    if (!jiggles.empty() || character.weights.jiggles.empty()) {
+    if (jiggles.count > 0 || character.weights.jiggles.empty()) {
         return success();
     }
     skinning::JiggleTable table = skinning::buildJiggleTable(character);
@@ -222,17 +224,39 @@ Status Asset::makeJiggles(const gpu::Device& device) {
                                            " morph targets and pairs of joints, of at most " +
                                            std::to_string(shared::kMostStepWork)};
     }
-    if (table.vertexCount == 0) {
+    const uint32_t elements = shared::kJiggleVertices + shared::kJiggleElements * table.vertexCount;
+    return makeSoft(device, "jiggle table", std::move(table.words), table.vertexCount, elements, jiggles);
+}
+
+Status Asset::makeCloths(const gpu::Device& device) {
+    if (cloths.count > 0 || character.cloths.empty()) {
         return success();
     }
-    const uint32_t count = table.vertexCount;
-    Result<gpu::StaticBuffers> made = upload(device, character.name + ": ", "jiggle table", takenFrom(table.words));
+    Result<skinning::ClothTable> table = skinning::buildClothTable(character);
+    if (!table) {
+        return table.error();
+    }
+    return makeSoft(device, "cloth table", std::move(table->words), table->clothCount, table->stateElements, cloths);
+}
+
+Status Asset::makeSoft(const gpu::Device& device, const char* name, std::vector<uint32_t> words, uint32_t count,
+                       uint32_t stateElements, SoftOfAsset& soft) const {
+    if (count == 0) {
+        return success();
+    }
+    Result<gpu::StaticBuffers> made = upload(device, character.name + ": ", name, takenFrom(words));
     if (!made) {
         return made.error();
     }
-    jiggles = std::move(*made);
-    jiggleCount = count;
+    soft.table = std::move(*made);
+    soft.count = count;
+    soft.stateElements = stateElements;
     return success();
+}
+
+Status Asset::makeSoft(const gpu::Device& device) {
+    const Status made = makeJiggles(device);
+    return made ? makeCloths(device) : made;
 }
 
 void Asset::startStream() {
@@ -258,7 +282,8 @@ gpu::MemoryUse Asset::memoryUse() const {
     gpu::MemoryUse use = buffers.use();
     use += centered.use();
     use += clips.use();
-    use += jiggles.use();
+    use += jiggles.table.use();
+    use += cloths.table.use();
     for (const std::shared_ptr<AssetPiece>& piece : pieces) {
         use += piece->vertices.use();
     }

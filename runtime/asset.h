@@ -34,6 +34,13 @@ struct SchemeTables {
     [[nodiscard]] const surface::Tables& tables() const { return prepared->tables; }
 };
 
+/// What is soft of an asset, of a kind.
+struct SoftOfAsset {
+    gpu::StaticBuffers table;   ///< 0: as the device reads it (shaders/shared/soft.h)
+    uint32_t count = 0;         ///< vertices that jiggle, or cloths
+    uint32_t stateElements = 0; ///< of an instance
+};
+
 struct Asset {
     /// If it is the asset's own, the words of its tables are gone: who uploads them has them.
     const std::shared_ptr<const Prepared> prepared;
@@ -53,11 +60,10 @@ struct Asset {
     // Made for the first group that plays on the device:
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
     gpu::StaticBuffers clips;                             ///< 0: the clip table
-    gpu::StaticBuffers jiggles;         ///< 0: skinning::JiggleTable, made for the first group whose vertices jiggle
-    uint32_t jiggleCount = 0;           ///< vertices in it
-    std::shared_ptr<ClipStream> stream; ///< null: all segments of clips are on the device
-    uint64_t clipsVersion = 0;          ///< stream->version() that they were made of
-    uint64_t clipPoolBytes = 0;         ///< SuppleAssetDesc
+    SoftOfAsset jiggles, cloths; ///< of skinning::JiggleTable and ClothTable, made for the first group that is soft
+    std::shared_ptr<ClipStream> stream;          ///< null: all segments of clips are on the device
+    uint64_t clipsVersion = 0;                   ///< stream->version() that they were made of
+    uint64_t clipPoolBytes = 0;                  ///< SuppleAssetDesc
     std::optional<skinning::Reach> ownReach;     ///< made for the first group of a view, if it was not prepared
     std::optional<skinning::Centers> ownCenters; ///< if they were not prepared
     skinning::UpdateFacts updates;               ///< made for the first group with update rates
@@ -91,8 +97,9 @@ struct Asset {
     void streamClips(uint64_t poolBytes);
     /// Sees to it that clipTable and clips are there.
     [[nodiscard]] Status makeClips(const gpu::Device& device);
-    /// Sees to it that `jiggles` is there, if some vertices jiggle. Refuses one that takes too much in a step.
-    [[nodiscard]] Status makeJiggles(const gpu::Device& device);
+    /// Sees to it that `jiggles` and `cloths` are there, if something is soft. Refuses what takes too much in a step.
+    [[nodiscard]] Status makeSoft(const gpu::Device& device);
+    [[nodiscard]] bool isSoft() const { return jiggles.count > 0 || cloths.count > 0; }
     /// Some morph weights follow from joints, and move something.
     [[nodiscard]] bool hasDrivers() const { return firstInfluences != 0 && !character.drivers.empty(); }
     /// A group that may read the clips has been created: from now on segments come with frames.
@@ -119,7 +126,8 @@ struct Asset {
         visit(buffers);
         visit(centered);
         visit(clips);
-        visit(jiggles);
+        visit(jiggles.table);
+        visit(cloths.table);
         for (const std::shared_ptr<AssetPiece>& piece : pieces) {
             visit(piece->vertices);
         }
@@ -127,6 +135,12 @@ struct Asset {
             visit(scheme->buffers);
         }
     }
+
+private:
+    [[nodiscard]] Status makeJiggles(const gpu::Device& device);
+    [[nodiscard]] Status makeCloths(const gpu::Device& device);
+    [[nodiscard]] Status makeSoft(const gpu::Device& device, const char* name, std::vector<uint32_t> words,
+                                  uint32_t count, uint32_t stateElements, SoftOfAsset& soft) const;
 };
 
 } // namespace supple::runtime

@@ -297,7 +297,8 @@ void Group::addMembers(const GroupShared& shared) {
     addMember(asset_->buffers);
     addMember(asset_->centered);
     addMember(asset_->clips);
-    addMember(asset_->jiggles);
+    addMember(asset_->jiggles.table);
+    addMember(asset_->cloths.table);
     if (!follows()) {
         addMember(*instances_);
     }

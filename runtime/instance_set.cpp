@@ -37,7 +37,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
         status = desc.asset->makeSkinning(*desc.device, desc.mode);
     }
     status = status && desc.room.springs ? set->takeSprings() : status;
-    status = status && desc.room.jiggles ? set->takeJiggles() : status;
+    status = status && desc.room.soft ? set->takeSoft() : status;
     if (!status) {
         return status.error();
     }
@@ -65,9 +65,10 @@ Status InstanceSet::takeSprings() {
     return success();
 }
 
-Status InstanceSet::takeJiggles() {
-    const Status made = desc_.asset->makeJiggles(*desc_.device);
-    desc_.room.jiggles = desc_.asset->jiggleCount > 0;
+Status InstanceSet::takeSoft() {
+    const Status made = desc_.asset->makeSoft(*desc_.device);
+    desc_.room.soft = desc_.asset->isSoft();
+    desc_.room.cloths = desc_.asset->cloths.count > 0;
     return made;
 }
 

@@ -81,7 +81,7 @@ private:
     /// The asset has its clip table: whether joints swing, and not too many.
     [[nodiscard]] Status takeSprings();
     /// Whether vertices jiggle, and none takes too much; then the asset has its table.
-    [[nodiscard]] Status takeJiggles();
+    [[nodiscard]] Status takeSoft();
     void takeCreaseAlphas(const InstanceSet& other, const AssetMatch& match);
 
     Desc desc_;

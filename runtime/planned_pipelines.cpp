@@ -94,7 +94,9 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
     planned.morphs = prepared.deform.firstInfluences != 0;
     planned.deforms = group.desc.poseSource != SUPPLE_POSES_CAGE_BUFFER;
     planned.pieces = pieces;
-    planned.jiggles = (group.desc.flags & SUPPLE_GROUP_SOFT) != 0 && !prepared.character.weights.jiggles.empty();
+    const bool soft = (group.desc.flags & SUPPLE_GROUP_SOFT) != 0;
+    planned.jiggles = soft && !prepared.character.weights.jiggles.empty();
+    planned.cloths = soft && !prepared.character.cloths.empty();
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK) {
         const Result<skinning::PoseKernels*> pose = makers.kernels->pose();
         const skinning::PoseNeeds needs{(group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0,

@@ -45,6 +45,7 @@ Status Playback::create(const Desc& desc) {
     windowSize_ = desc.windowSize;
     posesInFrame_ = posesInFrame(desc.room);
     unshownPoses_ = unshownPoses(desc.room);
+    hasCloths_ = desc.room.cloths;
     push_ = posePushOf(*desc.asset, desc.layout, desc.room);
     mode_ = desc.layout.mode;
 
@@ -414,7 +415,7 @@ void Playback::setMorphWeights(uint32_t slot, const float* weights) {
     if (hasDrivers() || weights == nullptr) {
         rates_.forget(slot);
     }
-    if (hasJiggles()) { // joints do not know of weights
+    if (hasSoft()) { // joints do not know of weights
         keepBefore(slot);
     }
     own.setMorphWeights(weights, push_.morphCount);
@@ -565,16 +566,17 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
     const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
     const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
     const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
+    const bool hasMoves = due.moves || hasCloths_; // which ask where down is
     const uint32_t begins = due.settles ? kSpringSettles | due.skipped << kSpringSkippedShift : 0;
-    list_.addSwinging(slotInWindow, due.count | jump | number | begins, due.part, due.moves);
+    list_.addSwinging(slotInWindow, due.count | jump | number | begins, due.part, hasMoves);
     for (uint32_t k = 0; k < due.count; ++k) {
         const double time = springTime(due.first + k);
         const std::span<const uint32_t> played = due.before[k] ? states_.before(slot) : states_.words(slot);
         const bool travels = (played[1] & kStateTravels) != 0;
         list_.addStep(slotInWindow, (due.before[k] ? kPosedBefore : 0) | (travels ? kPosedTravels : 0), time);
         firstStep_ = std::min(firstStep_, time);
-        if (due.moves) {
-            list_.addMove(due.rows[k]);
+        if (hasMoves) {
+            list_.addMove(due.rows[k], due.down[k]);
         }
     }
 }
@@ -623,7 +625,7 @@ PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& win
         const PoseList::Window& own = list_.window(window);
         const PoseList::Run& run = part == Part::mix ? own.mixes : own.poses;
         push.firstInstance = run.first;
-        const bool shownAlone = (part == Part::palette || part == Part::drivers) && !hasJiggles();
+        const bool shownAlone = (part == Part::palette || part == Part::drivers) && !hasSoft();
         push.instanceCount = shownAlone ? own.shown : part == Part::springs ? own.swinging.count : run.count;
         push.times = run.values;
         push.shown = own.shown;

@@ -77,8 +77,8 @@ public:
     [[nodiscard]] bool hasSprings() const { return push_.springs != 0; }
     /// Something runs steps on the grid of times.
     [[nodiscard]] bool hasSteps() const { return springs_.isTaken(); }
-    /// Some vertices jiggle: steps have poses.
-    [[nodiscard]] bool hasJiggles() const { return (push_.stepNodes & shared::kStepsHavePoses) != 0; }
+    /// Some vertices are soft: steps have poses.
+    [[nodiscard]] bool hasSoft() const { return (push_.stepNodes & shared::kStepsHavePoses) != 0; }
     /// Some morph weights follow from joints, beside what clips and the host make of them.
     [[nodiscard]] bool hasDrivers() const { return push_.drivers != 0; }
     /// A frame poses what listPoses() has listed, not all that the group works on.
@@ -182,7 +182,7 @@ public:
         return listsPoses() ? list_.poseCount() : windows.visible;
     }
 
-    /// Where a frame's steps are, for the stage that reads them; if hasJiggles(). Buffers have so many bytes an
+    /// Where a frame's steps are, for the stage that reads them; if hasSoft(). Buffers have so many bytes an
     /// instance; strides and places are elements.
     struct StepPoses {
         VkBuffer poses = VK_NULL_HANDLE, scratch = VK_NULL_HANDLE, list = VK_NULL_HANDLE;
@@ -237,6 +237,7 @@ private:
     const skinning::PoseKernels* kernels_ = nullptr;
     Asset* asset_ = nullptr;
     uint32_t capacity_ = 0, windowSize_ = 0, posesInFrame_ = 1, unshownPoses_ = 0;
+    bool hasCloths_ = false;
     double time_ = 0.0;
     skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
     /// What some instance has ever been set to do.

@@ -64,7 +64,7 @@ uint32_t posesInFrame(const StateRoom& room) {
 }
 
 uint32_t unshownPoses(const StateRoom& room) {
-    return room.updateRates ? kPoseEnds : room.jiggles ? kMostSpringSteps : 0;
+    return room.updateRates ? kPoseEnds : room.soft ? kMostSpringSteps : 0;
 }
 
 VkDeviceSize playbackWindowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
@@ -94,8 +94,8 @@ PosePush posePushOf(const Asset& asset, const skinning::PoseLayout& layout, cons
     push.endStride = endStride(layout, room);
     push.morphWeights = layout.morphWeights;
     push.shown = UINT32_MAX;
-    push.stepNodes = room.modifiers ? 0 : (room.springs ? kNodeOfSprings : 0) | (room.jiggles ? kNodeOfJiggles : 0);
-    push.stepNodes |= room.jiggles ? kStepsHavePoses : 0;
+    push.stepNodes = room.modifiers ? 0 : (room.springs ? kNodeOfSprings : 0) | (room.soft ? kNodeOfSoft : 0);
+    push.stepNodes |= room.soft ? kStepsHavePoses : 0;
     push.stateBefore = playedStride(table, layout, room);
     push.springs = room.springs ? table.springs : 0;
     push.springScratch = springScratch(table, room);

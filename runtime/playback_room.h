@@ -18,10 +18,11 @@ struct StateRoom {
     bool transitions = false;
     bool updateRates = false;
     bool springs = false; ///< some joints of the asset swing
-    bool jiggles = false; ///< some vertices of the asset jiggle
+    bool soft = false;    ///< some vertices of the asset jiggle or are cloth
+    bool cloths = false;  ///< are cloth
 
     /// Instances run steps on a grid of times, each posed by itself.
-    [[nodiscard]] constexpr bool hasSteps() const { return springs || jiggles; }
+    [[nodiscard]] constexpr bool hasSteps() const { return springs || soft; }
 };
 
 /// Poses are made of what nodes do: the asset needs its clip table.
@@ -36,7 +37,7 @@ struct StateRoom {
 /// Poses of an instance that may be made in one frame.
 [[nodiscard]] uint32_t posesInFrame(const StateRoom& room);
 
-/// Poses of an instance that are kept beside what is shown: ends of update rates, or those of steps that jiggle.
+/// Poses of an instance that are kept beside what is shown: ends of update rates, or those of steps of what is soft.
 [[nodiscard]] uint32_t unshownPoses(const StateRoom& room);
 
 /// Of a transition in a state; 0: instances have none.

@@ -64,11 +64,14 @@ public:
         stepTimes_.push_back(std::bit_cast<uint32_t>(split.high));
         stepTimes_.push_back(std::bit_cast<uint32_t>(split.low));
     }
-    void addMove(const std::array<glm::vec4, 3>& rows) {
+    void addMove(const std::array<glm::vec4, 3>& rows, const glm::vec3& down) {
         for (const glm::vec4& row : rows) {
             for (int i = 0; i < 4; ++i) {
                 moves_.push_back(std::bit_cast<uint32_t>(row[i]));
             }
+        }
+        for (int i = 0; i < 3; ++i) {
+            moves_.push_back(std::bit_cast<uint32_t>(down[i]));
         }
     }
     void endWindow(uint32_t window);

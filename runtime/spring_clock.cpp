@@ -29,6 +29,13 @@ SpringPlace placeWithin(const SpringPlace& now, const SpringPlace& before) {
     return {within * before.linear, within * (before.position - now.position)};
 }
 
+glm::vec3 downWithin(const SpringPlace& place) {
+    const glm::dvec3 down = glm::transpose(place.linear) * glm::dvec3(0.0, -1.0, 0.0);
+    const double length = glm::length(down);
+    const bool sound = length > 1e-30 && length < 1e30;
+    return sound ? glm::vec3(down / length) : glm::vec3(0.0f, -1.0f, 0.0f);
+}
+
 std::array<glm::vec4, 3> rowsOf(const SpringPlace& place) {
     std::array<glm::vec4, 3> rows;
     for (int r = 0; r < 3; ++r) {
@@ -112,6 +119,7 @@ void SpringClock::move(Slot& own, Due& due, double time, const SpringPlace& plac
             const SpringPlace now = placeAt(own, springTime(due.first + k), time, place, travels);
             own.move = placeWithin(now, own.atLast);
             own.atLast = now;
+            due.down[k] = downWithin(now);
         }
         due.rows[k] = rowsOf(own.move);
     }
@@ -140,6 +148,8 @@ SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, c
     for (uint32_t k = 0; k < due.count; ++k) {
         const double stepTime = springTime(due.first + k);
         due.before[k] = stepTime < own.changed && hasBefore(slot);
+        const bool stoodThere = own.jumped != kNoTime && stepTime < own.jumped;
+        due.down[k] = downWithin(stoodThere ? own.inFrame : place);
         if (stepTime >= own.jumped) {
             due.jump = due.jump == kNone ? k : due.jump;
         }
@@ -151,6 +161,7 @@ SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, c
         move(own, due, time, place, travels);
     } else if (due.count > 0) {
         own.move = {};
+        std::fill_n(due.rows.begin(), due.count, rowsOf(own.move));
     }
     if (due.jump != kNone) {
         own.jumped = kNoTime;

@@ -23,6 +23,8 @@ struct SpringPlace {
 [[nodiscard]] SpringPlace placeBetween(const SpringPlace& a, const SpringPlace& b, double part);
 /// How the model's frame at `before` lies in that at `now`. Nothing moves if `now` flattens.
 [[nodiscard]] SpringPlace placeWithin(const SpringPlace& now, const SpringPlace& before);
+/// The direction of the world's down, within it.
+[[nodiscard]] glm::vec3 downWithin(const SpringPlace& place);
 /// Three rows of it.
 [[nodiscard]] std::array<glm::vec4, 3> rowsOf(const SpringPlace& place);
 
@@ -64,11 +66,11 @@ public:
         bool settles = false;
         uint32_t skipped = 0; ///< if it settles: steps that are left out since the last that it ran; 0: nothing is left
         float part = 0.0f;    ///< of the way from the step before the last to the last, that is shown
-        uint32_t jump = kNone; ///< the one to which it has not moved
-        bool moves = false;
+        uint32_t jump = kNone;                               ///< the one to which it has not moved
+        bool moves = false;                                  ///< else all rows are the identity
         std::array<bool, shared::kMostSpringSteps> before{}; ///< posed by what was played before the last call
-        /// If it moves.
         std::array<std::array<glm::vec4, 3>, shared::kMostSpringSteps> rows{};
+        std::array<glm::vec3, shared::kMostSpringSteps> down{}; ///< of the world, in the frame that the host places
     };
     /// It has run them from now on. Frames come with rising numbers.
     [[nodiscard]] Due take(uint32_t slot, uint64_t frame, double time, const SpringPlace& place, bool travels);

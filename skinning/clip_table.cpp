@@ -4,10 +4,10 @@
 #include "skinning/bits.h"
 #include "skinning/contacts.h"
 #include "skinning/driver_table.h"
-#include "skinning/jiggle_table.h"
 #include "skinning/packed_clip.h"
 #include "skinning/pose.h"
 #include "skinning/rotation.h"
+#include "skinning/soft_nodes.h"
 #include "skinning/split_time.h"
 #include "skinning/spring_table.h"
 
@@ -380,7 +380,7 @@ ClipTable buildClipTable(const cage::Character& character) {
     builder.putContacts();
     putSprings(character, table);
     putDrivers(character, table);
-    markJiggleNodes(character, table);
+    markSoftNodes(character, table);
     builder.putSegments();
     return table;
 }

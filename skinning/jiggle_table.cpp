@@ -2,6 +2,7 @@
 
 #include "shaders/shared/pose.h"
 #include "skinning/bits.h"
+#include "skinning/soft_nodes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@
 namespace supple::skinning {
 
 namespace {
-
-using cage::kNone;
 
 /// sin(x) / x of a squared x, which may be negative: then sinh(y) / y of y^2 = -x^2.
 double sineOver(double squares) {
@@ -31,10 +30,6 @@ float towardsZero(double x) {
     return std::abs(static_cast<double>(rounded)) > std::abs(x) ? std::nextafter(rounded, 0.0f) : rounded;
 }
 
-bool jiggles(const cage::Character& character, uint32_t vertex) {
-    return !character.weights.jiggles.empty() && character.weights.jiggles[vertex].jiggle != kNone;
-}
-
 } // namespace
 
 glm::vec4 jiggleSpring(const cage::Jiggle& jiggle) {
@@ -51,52 +46,20 @@ glm::vec4 jiggleSpring(const cage::Jiggle& jiggle) {
 
 JiggleTable buildJiggleTable(const cage::Character& character) {
     JiggleTable table;
-    std::vector<uint32_t> work(character.cage.vertexCount(), 0);
-    for (const cage::MorphTarget& target : character.morphs.targets) {
-        for (const uint32_t vertex : target.vertices) {
-            ++work[vertex];
-        }
-    }
+    const std::vector<uint32_t> work = deformWork(character);
     for (uint32_t v = 0; v < character.cage.vertexCount(); ++v) {
         if (!jiggles(character, v)) {
             continue;
         }
-        const cage::JiggleWeight& own = character.weights.jiggles[v];
-        const cage::Jiggle& jiggle = character.jiggles[own.jiggle];
+        const cage::PaintedWeight& own = character.weights.jiggles[v];
+        const cage::Jiggle& jiggle = character.jiggles[own.index];
         const glm::vec4 spring = jiggleSpring(jiggle);
         table.words.insert(table.words.end(), {v, bits(own.weight), bits(jiggle.limit), 0u});
         table.words.insert(table.words.end(), {bits(spring.x), bits(spring.y), bits(spring.z), bits(spring.w)});
-        const uint32_t influences = character.weights.starts[v + 1] - character.weights.starts[v];
-        table.mostWork = std::max(table.mostWork, work[v] + (influences + 1) / 2);
+        table.mostWork = std::max(table.mostWork, work[v]);
         ++table.vertexCount;
     }
     return table;
-}
-
-void markJiggleNodes(const cage::Character& character, ClipTable& table) {
-    const auto mark = [&](uint32_t node) {
-        for (; node != kNone; node = character.skeleton.nodes[node].parent) {
-            uint32_t& flags = table.words[4 * size_t{shared::kNodeElements * table.places[node]} + 1];
-            if ((flags & shared::kNodeOfJiggles) != 0) {
-                return;
-            }
-            flags |= shared::kNodeOfJiggles;
-        }
-    };
-    bool any = false;
-    for (uint32_t v = 0; v < character.cage.vertexCount(); ++v) {
-        if (jiggles(character, v)) {
-            any = true;
-            for (uint32_t i = character.weights.starts[v]; i < character.weights.starts[v + 1]; ++i) {
-                mark(character.skin.joints[character.weights.influences[i].joint]);
-            }
-        }
-    }
-    for (const uint32_t node : table.driverNodes) {
-        if (any) {
-            mark(node);
-        }
-    }
 }
 
 } // namespace supple::skinning

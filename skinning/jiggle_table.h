@@ -1,8 +1,7 @@
-// What jiggles of a character, in the layout that the device reads (shaders/shared/jiggle.h).
+// What jiggles of a character, in the layout that the device reads (shaders/shared/soft.h).
 #pragma once
 
 #include "cage/character.h"
-#include "skinning/clip_table.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -20,9 +19,5 @@ struct JiggleTable {
     uint32_t mostWork = 0;    ///< of a vertex: displacements of morph targets, and pairs of influences
 };
 [[nodiscard]] JiggleTable buildJiggleTable(const cage::Character& character);
-
-/// Tells the nodes of a clip table which of them vertices that jiggle need: joints that move them, what these hang on,
-/// and what drivers look at.
-void markJiggleNodes(const cage::Character& character, ClipTable& table);
 
 } // namespace supple::skinning

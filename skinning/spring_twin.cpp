@@ -1,7 +1,6 @@
 #include "skinning/spring_twin.h"
 
-#include "shaders/pose/limbs.h"
-#include "shaders/pose/swing.h"
+#include "shaders/pose/colliders.h"
 
 #include <algorithm>
 

@@ -4,12 +4,12 @@
 #include "cage/gltf/cage_extension.h"
 #include "cage/gltf/deformers.h"
 #include "cage/gltf/extras_creases.h"
-#include "cage/gltf/jiggles.h"
 #include "cage/gltf/manifold.h"
 #include "cage/gltf/morphs.h"
 #include "cage/gltf/normals.h"
 #include "cage/gltf/polygons.h"
 #include "cage/gltf/skin.h"
+#include "cage/gltf/soft.h"
 #include "cage/gltf/triangles.h"
 #include "cage/gltf/trim.h"
 #include "cage/limits.h"
@@ -82,7 +82,7 @@ public:
             return std::nullopt;
         }
         findCageNumbers(mesh, numbers);
-        jiggles_ = readJiggles(document_, meshIndex);
+        soft_ = SoftReader(document_, meshIndex);
         positionAccessors_.assign(numbers.size(), -1);
         std::vector<uint8_t> isRead(numbers.size(), 0);
         for (size_t i = 0; i < numbers.size(); ++i) {
@@ -102,14 +102,18 @@ public:
         }
         document_.leniency->leaveOut(
             [&] { out_.skinning = readSkinningMode(document_.meshes[meshIndex], out_.element, warnings_); });
-        out_.jiggles = usedJiggles(document_, jiggles_, out_.jiggleWeights);
+        SoftReader::Lists soft = std::move(soft_).finish(document_);
+        out_.jiggles = std::move(soft.jiggles);
+        out_.cloths = std::move(soft.cloths);
+        out_.jiggleWeights = std::move(soft.jiggleWeights);
+        out_.clothWeights = std::move(soft.clothWeights);
         readExtrasCreases(document_.meshes[meshIndex], isCounted_, out_, warnings_);
         out_.weights.report(out_.element + " WEIGHTS", warnings_);
         return std::move(out_);
     }
 
 private:
-    /// Accessors of position, cage numbers, joints, weights, morph targets and jiggles: what makes a vertex.
+    /// Accessors of position, cage numbers, joints, weights, morph targets and what is painted: what makes a vertex.
     using Stream = std::tuple<int, int, std::vector<int>, std::vector<int>, std::vector<int>, std::vector<int>>;
 
     /// Makes an entry of each primitive that has triangles. Returns their numbers.
@@ -245,7 +249,7 @@ private:
         const int cageNumbers = cageNumbers_[number];
         const std::optional<CageExtension>& extension = extensions_[number];
         const Stream stream{position->second, cageNumbers, sets.joints,
-                            sets.weights,     targets,     jiggleAccessors(from, jiggles_)};
+                            sets.weights,     targets,     soft_.accessorsOf(from)};
         const auto known = streams_.find(stream);
         primitive.firstVertex = known != streams_.end() ? known->second : static_cast<uint32_t>(out_.positions.size());
         const size_t count = accessorCount(document_, position->second);
@@ -348,7 +352,7 @@ private:
 
     /// All of the vertices or, if it throws, none.
     void readVertices(const Stream& stream, const SkinSets& sets, size_t count, const std::string& element) {
-        const auto& [position, cageNumbers, joints, weights, targets, jiggles] = stream;
+        const auto& [position, cageNumbers, joints, weights, targets, painted] = stream;
         const std::vector<glm::vec3> positions = readPositions(position, count, element);
         const Displacements displacements = morphReader_.read(document_, targets, count, element);
         std::vector<uint32_t> numbers;
@@ -363,7 +367,7 @@ private:
         } else {
             appendWeights(document_, sets, count, binding_.skinJoints(), element, out_.weights);
         }
-        appendJiggleWeights(document_, jiggles, out_.positions.size(), count, element, jiggles_, out_.jiggleWeights);
+        soft_.append(document_, painted, out_.positions.size(), count, element);
         out_.positions.insert(out_.positions.end(), positions.begin(), positions.end());
         out_.morphs.append(count, displacements);
         out_.cageNumbers.insert(out_.cageNumbers.end(), numbers.begin(), numbers.end());
@@ -450,7 +454,7 @@ private:
     std::vector<uint8_t> isExtensionLeftOut_;              ///< by primitive
     std::vector<int> positionAccessors_;                   ///< by primitive
     MorphReader morphReader_;
-    std::vector<PaintedJiggle> jiggles_;
+    SoftReader soft_;
     std::vector<int> cageNumbers_;       ///< per primitive: the accessor that numbers its cage vertices, or -1
     bool isNumberingLeftOut_ = false;    ///< vertices that have no number are among those that should
     bool isCounted_ = true;              ///< no primitive that is drawn, or may be, was left out with its vertices

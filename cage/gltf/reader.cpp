@@ -65,6 +65,27 @@ PartCage readPart(const Document& document, const MeshBinding& binding, const Gl
     return part;
 }
 
+/// From the numbers of the file to those of the character's spring bones: `places`.
+void placeColliders(std::span<const uint32_t> places, std::vector<PartCage>& parts, Leniency& leniency) {
+    for (PartCage& part : parts) {
+        for (Cloth& cloth : part.cloths) {
+            std::vector<uint32_t> placed;
+            for (const uint32_t number : cloth.colliders) {
+                leniency.leaveOut([&] {
+                    if (number >= places.size()) {
+                        refuse(part.element + " SUPPLE_deformers cloth colliders",
+                               std::to_string(number) + " is no collider of the file's spring bones");
+                    }
+                    if (places[number] != kNone) { // else it is left out, and a warning says so
+                        placed.push_back(places[number]);
+                    }
+                });
+            }
+            cloth.colliders = std::move(placed);
+        }
+    }
+}
+
 /// What the meshes of nodes are bound to. One whose skin cannot be read is bound to its node, as one without a skin.
 std::vector<MeshBinding> readBindings(const Document& document, std::span<const uint32_t> nodes,
                                       std::span<const glm::dmat4> restPlaces) {
@@ -198,7 +219,9 @@ ReadParts readInto(const Document& document, const GltfOptions& options, Charact
         targetCounts[part.part.node] = part.morphs.targets.size();
     }
     std::vector<UnplacedExpression> expressions = readExpressions(document, targetCounts, warnings);
-    character.springBones = readSpringBones(document, character.skeleton, warnings);
+    ReadSprings springs = readSpringBones(document, character.skeleton, warnings);
+    character.springBones = std::move(springs.bones);
+    placeColliders(springs.colliders, parts, leniency);
     character.clips = readClips(document, character.skeleton, targetCounts, warnings);
     for (const ClipFile& file : options.clipFiles) {
         leniency.gather([&] {

@@ -90,14 +90,14 @@ public:
     SpringReader(const Document& document, const Skeleton& skeleton, Warnings& warnings)
         : document_(document), nodes_(skeleton.nodes.size()), skeleton_(skeleton), warnings_(warnings) {}
 
-    SpringBones read() && {
+    ReadSprings read() && {
         const Json* extensions = member(document_.json.root(), "extensions");
         if (const Json* own = objectIn(extensions, "VRMC_springBone"); own != nullptr) {
             readNew(*own);
         } else if (const Json* old = objectIn(objectIn(extensions, "VRM"), "secondaryAnimation"); old != nullptr) {
             readOld(*old);
         }
-        return std::move(bones_);
+        return {std::move(bones_), std::move(colliders_)};
     }
 
 private:
@@ -155,22 +155,21 @@ private:
 
     /// Groups and colliders that are left out leave a gap: numbers of a file go through `colliders` and `groups`.
     void readNew(const Json& own) {
-        std::vector<uint32_t> colliders;
         each(itemsIn(own, "colliders"), "VRM colliders", [&](const Json& from, size_t) -> Fault {
-            colliders.push_back(kNone);
+            colliders_.push_back(kNone);
             SpringCollider collider;
             Numbers numbers(from);
             numbers.index("node", nodes_, collider.node, true);
             Fault fault = numbers.fault() ? numbers.fault() : readShape(from, collider);
             if (!fault) {
-                colliders.back() = static_cast<uint32_t>(bones_.colliders.size());
+                colliders_.back() = static_cast<uint32_t>(bones_.colliders.size());
                 bones_.colliders.push_back(collider);
             }
             return fault;
         });
         each(itemsIn(own, "colliderGroups"), "VRM collider groups", [&](const Json& from, size_t) -> Fault {
             std::vector<uint32_t>& group = bones_.colliderGroups.emplace_back();
-            return indices(itemsIn(from, "colliders"), "collider", colliders, group);
+            return indices(itemsIn(from, "colliders"), "collider", colliders_, group);
         });
         each(itemsIn(own, "springs"), "VRM springs", [&](const Json& from, size_t) -> Fault {
             Spring spring;
@@ -246,6 +245,7 @@ private:
                 collider.tail = collider.offset;
                 document_.memory->take(sizeof collider, "VRM colliders");
                 group.push_back(static_cast<uint32_t>(bones_.colliders.size()));
+                colliders_.push_back(group.back());
                 bones_.colliders.push_back(collider);
             }
             return fault;
@@ -353,13 +353,14 @@ private:
     const Skeleton& skeleton_;
     Warnings& warnings_;
     SpringBones bones_;
+    std::vector<uint32_t> colliders_; ///< ReadSprings
     std::vector<std::vector<uint32_t>> children_;
     std::vector<uint8_t> taken_;
 };
 
 } // namespace
 
-SpringBones readSpringBones(const Document& document, const Skeleton& skeleton, Warnings& warnings) {
+ReadSprings readSpringBones(const Document& document, const Skeleton& skeleton, Warnings& warnings) {
     return SpringReader(document, skeleton, warnings).read();
 }
 

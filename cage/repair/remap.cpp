@@ -112,6 +112,9 @@ private:
             if (!weights_.jiggles.empty()) {
                 mapped.jiggles.push_back(weights_.jiggles[source]);
             }
+            if (!weights_.cloths.empty()) {
+                mapped.cloths.push_back(weights_.cloths[source]);
+            }
         }
         weights_ = std::move(mapped);
     }

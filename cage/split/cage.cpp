@@ -311,8 +311,12 @@ void fillMotion(const Mesh& mesh, PartCage& out) {
         if (!mesh.jiggleWeights.empty()) {
             out.weights.jiggles.push_back(mesh.jiggleWeights[out.cage.sourceVertices[i]]);
         }
+        if (!mesh.clothWeights.empty()) {
+            out.weights.cloths.push_back(mesh.clothWeights[out.cage.sourceVertices[i]]);
+        }
     }
     out.jiggles = mesh.jiggles;
+    out.cloths = mesh.cloths;
 }
 
 /// Returns the cage vertex of each of the mesh's vertices, kNone for those without a face.

@@ -80,7 +80,9 @@ struct Mesh {
     VertexWeights weights;
     VertexMorphs morphs;
     std::vector<Jiggle> jiggles;
-    std::vector<JiggleWeight> jiggleWeights; ///< per vertex; or empty: none jiggles
+    std::vector<Cloth> cloths; ///< with colliders by the numbers of the file
+    // Per vertex; or empty: none is painted.
+    std::vector<PaintedWeight> jiggleWeights, clothWeights;
     std::vector<uint32_t> cageNumbers;       ///< per vertex, where the source numbers cage vertices; else empty
     WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers
     /// Vertices that are one, where the source lists these pairs and no cage numbers (WeldSource::meshManifold).

@@ -95,6 +95,11 @@ template <class A, Is<Jiggle> T>
 void fields(A& a, T& jiggle) {
     a(jiggle.frequency, jiggle.damping, jiggle.limit);
 }
+template <class A, Is<Cloth> T>
+void fields(A& a, T& cloth) {
+    a(cloth.stretch, cloth.shear, cloth.bend, cloth.volume, cloth.tether, cloth.drag, cloth.air, cloth.gravity,
+      cloth.hitRadius, cloth.substeps, cloth.colliders);
+}
 template <class A, Is<SpringJoint> T>
 void fields(A& a, T& joint) {
     a(joint.node, joint.hitRadius, joint.stiffness, joint.gravityPower, joint.drag, joint.gravityDirection);
@@ -154,10 +159,10 @@ void fields(A& a, T& character) {
     a(character.name, character.copyright, character.cage, character.parts, character.skeleton.nodes,
       character.skeleton.parentsFirst, character.skin.joints, character.skin.inverseBinds, character.weights.starts,
       character.weights.influences, character.morphs.targets, character.morphs.weights, character.expressions,
-      character.drivers, character.weights.jiggles, character.jiggles, character.springBones.springs,
-      character.springBones.colliderGroups, character.springBones.colliders, character.clips, character.clipRoot,
-      character.materials, character.materialVariants, character.images, character.warnings, character.damages,
-      character.sourceVertexCount, character.seamVertexCount);
+      character.drivers, character.weights.jiggles, character.jiggles, character.weights.cloths, character.cloths,
+      character.springBones.springs, character.springBones.colliderGroups, character.springBones.colliders,
+      character.clips, character.clipRoot, character.materials, character.materialVariants, character.images,
+      character.warnings, character.damages, character.sourceVertexCount, character.seamVertexCount);
 }
 
 } // namespace supple::cage
@@ -178,14 +183,14 @@ inline constexpr bool kIsPlain<glm::mat4> = true;
 template <>
 inline constexpr bool kIsPlain<cage::Influence> = true;
 template <>
-inline constexpr bool kIsPlain<cage::JiggleWeight> = true;
+inline constexpr bool kIsPlain<cage::PaintedWeight> = true;
 template <>
 inline constexpr bool kIsPlain<cage::Crease> = true;
 template <>
 inline constexpr bool kIsPlain<cage::SharpVertex> = true;
 template <>
 inline constexpr bool kIsPlain<cage::CreaseScalar> = true;
-static_assert(sizeof(cage::Influence) == 8 && sizeof(cage::JiggleWeight) == 8 && sizeof(cage::Crease) == 16 &&
+static_assert(sizeof(cage::Influence) == 8 && sizeof(cage::PaintedWeight) == 8 && sizeof(cage::Crease) == 16 &&
               sizeof(cage::SharpVertex) == 8 && sizeof(cage::CreaseScalar) == 12);
 
 } // namespace supple::runtime

@@ -96,6 +96,7 @@ struct PlannedStages {
     bool deforms = false; ///< as CageStageDesc::deforms
     bool pieces = false;  ///< a surface is made of some of the parts
     bool jiggles = false; ///< vertices do
+    bool cloths = false;  ///< there are some
 };
 
 struct CageStageRow {

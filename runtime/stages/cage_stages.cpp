@@ -2,13 +2,13 @@
 
 #include "runtime/stages/deform.h"
 #include "runtime/stages/gather.h"
-#include "runtime/stages/jiggle.h"
+#include "runtime/stages/soft.h"
 
 namespace supple::runtime {
 
 namespace {
 
-constexpr CageStageRow kRows[] = {kDeformRow, kJiggleRow, kGatherRow};
+constexpr CageStageRow kRows[] = {kDeformRow, kJiggleRow, kClothRow, kGatherRow};
 
 } // namespace
 

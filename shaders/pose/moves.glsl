@@ -17,3 +17,9 @@ Affine stepMove(Affine before, Affine way, uint moves, uint k, bool jumps) {
     if (jumps) move = identity();
     return move;
 }
+
+// The world's down at a step, in the frame that the host places. `word`: where its move begins.
+vec3 downRow(uint word) {
+    uint w = word + 12u;
+    return uintBitsToFloat(uvec3(instanceWord(w), instanceWord(w + 1u), instanceWord(w + 2u)));
+}

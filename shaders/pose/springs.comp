@@ -4,8 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/pose/tables.glsl"
-#include "shaders/pose/limbs.h"
-#include "shaders/pose/swing.h"
+#include "shaders/pose/colliders.h"
 
 BUFFER(coherent, Scratch, kScratchPoseBinding, std430, vec4, scratch)
 BUFFER(coherent, Springs, kSpringBinding, std430, vec4, springs)

@@ -1,5 +1,5 @@
 // Joints that swing: steps of an instance on the grid of times, then what it shows between the last two. Needs what nodes.h
-// needs; swing.h and limbs.h; of what is stepped or shown nodeLocal(), keepLocal(), nodeGlobal(), keepGlobal(),
+// needs; colliders.h; of what is stepped or shown nodeLocal(), keepLocal(), nodeGlobal(), keepGlobal(),
 // posedCollider(), keepCollider(); of the instance spring(), keepSpring().
 #include "shaders/pose/nodes.h"
 
@@ -40,18 +40,8 @@ void poseCollider(uint collider, uint element) {
         node = parentOf(node);
     }
     if (node != kNoNode) m = combined(nodeGlobal(node), m);
-    SUPPLE_PRECISE vec3 a = through(m, vec3(point));
-    SUPPLE_PRECISE vec3 way = through(m, vec3(end)) - a;
-    float squares = dot3(way, way);
-    SUPPLE_PRECISE float scale = 0.0f;
-    if (squares > 1e-20f) scale = recip(squares);
-    if ((ids.y & kColliderPlane) != 0u) {
-        way = direction(directionThrough(m, vec3(end)));
-        scale = -1.0f;
-    }
-    SUPPLE_PRECISE float radius = point.w;
-    if ((ids.y & kColliderInside) != 0u) radius = -max(radius, 1e-6f);
-    keepCollider(collider, vec4(a, radius), vec4(way, scale));
+    PosedCollider posed = colliderThrough(m, ids.y, point, end);
+    keepCollider(collider, posed.point, posed.way);
 }
 
 // The number of a collider, by its reference.

@@ -97,18 +97,19 @@
 // Ends (vec4 elements, in groups with update rates): two poses an instance, `endStride` apart, at the two grid times that a time
 // lies between; of number 1 and 2. They stand in model space, or where the instance has travelled to from there: the transform is
 // left out. They serve later frames, so they have a buffer that stays on this queue.
-// In groups where vertices jiggle the buffer has the pose of each step instead, in the order of the list, in model space.
+// In groups where something is soft the buffer has the pose of each step instead, in the order of the list, in model space.
 //
 // List of what is posed (words), in groups with update rates, made anew for every frame. For each window of instances: an entry for
 // every pose that is due, slot | number of the end << kPosedEndShift, 0: what is shown; from `times` on two words for each of these, its time as a high and a
 // low float; an entry for every instance that is shown between its ends, slot | number of the earlier one << kPosedEndShift;
 // then a float for each of these, the part of the way from the earlier end to the later one.
-// In groups with springs or vertices that jiggle the list has, for each window: an entry for every pose that is shown, `shown` of
+// In groups with springs or what is soft the list has, for each window: an entry for every pose that is shown, `shown` of
 // them; an entry for each step that is due, slot | kPosedBefore if it is posed as before the last call | kPosedTravels if root motion
 // travels; from `times` on the times of all these; then kSpringWords for each instance that runs steps or shows them: (slot, the first
 // of its steps, how many | kSpringSettles, with the steps that are left out | a jump | the low 4 bits of the first one's number, the part of the way from the step
 // before the last to the last, as a float, where its moves begin or 0, its entry among those that are shown); moves: for each step the
-// three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled.
+// three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled, and
+// the direction of the world's down in this step's; with cloths all steps have them.
 //
 // Springs (vec4 elements, one run of `springStride` an instance): three rows of what it had travelled at the last step; then
 // kSpringJointElements for every joint that swings: its tail after the last step, and before that, in model space or in the frame of
@@ -153,7 +154,7 @@ SUPPLE_SHARED_CONST kContactElements = 2u;
 SUPPLE_SHARED_CONST kNodeFixed = 1u;      // its local matrix is
 SUPPLE_SHARED_CONST kNodeOfSprings = 2u;  // steps of springs need it
 SUPPLE_SHARED_CONST kNodeInChain = 4u;    // it swings, or hangs on one that does
-SUPPLE_SHARED_CONST kNodeOfJiggles = 8u;  // steps need it for vertices that jiggle
+SUPPLE_SHARED_CONST kNodeOfSoft = 8u;  // steps need it for what is soft
 
 // Packed clips.
 SUPPLE_SHARED_CONST kPackedClip = 0x80000000u;
@@ -215,7 +216,7 @@ SUPPLE_SHARED_CONST kMostSpringSteps = 8u; // in a frame
 // Rounds of an invocation's loops in a step: eight must not come near the 65,536 where some drivers end it.
 SUPPLE_SHARED_CONST kMostStepWork = 7000u;
 SUPPLE_SHARED_CONST kSpringWords = 6u;
-SUPPLE_SHARED_CONST kMoveWords = 12u;
+SUPPLE_SHARED_CONST kMoveWords = 15u;
 SUPPLE_SHARED_CONST kSpringSettles = 0x80000000u; // tails at rest in the pose
 SUPPLE_SHARED_CONST kSpringJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
 SUPPLE_SHARED_CONST kSpringNumberShift = 12u; // 4 bits: the last of the first step's number
@@ -231,7 +232,7 @@ SUPPLE_SHARED_CONST kPosedColliderElements = 2u;
 SUPPLE_SHARED_CONST kSpringJoints = 3u; // where they begin in an instance's run
 SUPPLE_SHARED_CONST kSpringJointElements = 4u;
 
-// Beside flags of nodes in PosePush::stepNodes: what jiggles needs palettes and morph weights of steps.
+// Beside flags of nodes in PosePush::stepNodes: what is soft needs palettes and morph weights of steps.
 SUPPLE_SHARED_CONST kStepsHavePoses = 0x80000000u;
 
 // Drivers.

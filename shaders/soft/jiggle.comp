@@ -12,17 +12,17 @@ layout(constant_id = kMorphsConstant) const bool kMorphs = false;
 layout(constant_id = kSkinningConstant) const uint kSkinning = kLinearSkinning;
 
 BUFFER(, DeformedCage, kDeformedCageBinding, std430, vec4, deformedCage)
-BUFFER(, Jiggles, kJiggleStateBinding, std430, vec4, jiggles)
+BUFFER(, Jiggles, kSoftStateBinding, std430, vec4, jiggles)
 
-#define PUSH_CONSTANTS JigglePush
+#define PUSH_CONSTANTS SoftPush
 #include "shaders/shared/push.glsl"
 #define INSTANCE_PUSH push
 #include "shaders/shared/instances.glsl"
 
 LOADED_BUFFER(uvec4, table, Table, kDeformTableBinding, usamplerBuffer, kDeformTableTexelBinding, xyzw)
 LOADED_BUFFER(vec4, pose, Poses, kPoseBinding, samplerBuffer, kPoseTexelBinding, xyzw)
-LOADED_BUFFER(uvec4, jiggleTable, JiggleTable, kJiggleTableBinding, usamplerBuffer, kJiggleTableTexelBinding, xyzw)
-LOADED_BUFFER(vec4, scratch, Scratch, kJigglePlaceBinding, samplerBuffer, kJigglePlaceTexelBinding, xyzw)
+LOADED_BUFFER(uvec4, jiggleTable, JiggleTable, kSoftTableBinding, usamplerBuffer, kSoftTableTexelBinding, xyzw)
+LOADED_BUFFER(vec4, scratch, Scratch, kSoftPlaceBinding, samplerBuffer, kSoftPlaceTexelBinding, xyzw)
 
 #include "shaders/deform/skin.h"
 #include "shaders/pose/moves.glsl"
@@ -30,10 +30,10 @@ LOADED_BUFFER(vec4, scratch, Scratch, kJigglePlaceBinding, samplerBuffer, kJiggl
 Affine scratchRows(uint i) { return rowsOf(scratch(i), scratch(i + 1u), scratch(i + 2u)); }
 
 void main() {
-    uint id = invocationIndex(), count = push.vertexCount * push.instanceCount;
+    uint id = invocationIndex(), count = push.count * push.instanceCount;
     bool within = id < count; // lanes beyond must not step once more: what they read and make of it nobody sees
     id = min(id, count - 1u);
-    uint entry = id / push.vertexCount, vertex = id - entry * push.vertexCount;
+    uint entry = id / push.count, vertex = id - entry * push.count;
     uvec4 own = jiggleTable(kJiggleTableElements * vertex);
     vec4 spring = uintBitsToFloat(jiggleTable(kJiggleTableElements * vertex + 1u));
 

@@ -5,7 +5,7 @@
 
 #include "shaders/pose/limbs.h"
 #include "shaders/pose/swing.h"
-#include "shaders/shared/jiggle.h"
+#include "shaders/shared/soft.h"
 #include "shaders/shared/pose.h"
 
 SUPPLE_SHARED_BEGIN

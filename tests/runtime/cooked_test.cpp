@@ -152,10 +152,40 @@ TEST(Cooked, FilesKeepJiggles) {
               place + "jiggle 0: its numbers are out of range");
     EXPECT_EQ(spoiled([](Character& c) { c.weights.jiggles.pop_back(); }),
               place + "not one weight of jiggles a vertex");
-    for (const cage::JiggleWeight wrong : {cage::JiggleWeight{1, 0.5f}, {0, 0.0f}, {0, 1.5f}, {0, -INFINITY}}) {
+    for (const cage::PaintedWeight wrong : {cage::PaintedWeight{1, 0.5f}, {0, 0.0f}, {0, 1.5f}, {0, -INFINITY}}) {
         EXPECT_EQ(spoiled([&](Character& c) { c.weights.jiggles[3] = wrong; }),
                   place + "a vertex names no jiggle, or has no weight above 0 to 1");
     }
+}
+
+TEST(Cooked, FilesKeepCloths) {
+    const Result<cage::Character> character =
+        cage::readGltfFile(std::string(SUPPLE_TEST_DATA) + "/cloth/caped.glb", {.strict = true});
+    ASSERT_TRUE(character.ok()) << character.error().message;
+    const std::shared_ptr<Prepared> prepared = Prepared::of(*character);
+    const Result<std::shared_ptr<Prepared>> read = readCooked(writeCooked(*prepared, ""), character->name);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    ASSERT_EQ(character->cloths.size(), 1u);
+    EXPECT_EQ((*read)->character.cloths, character->cloths);
+    EXPECT_EQ((*read)->character.weights.cloths, character->weights.cloths);
+
+    const auto spoiled = [&](const auto& spoil) {
+        Prepared wrong = *prepared;
+        spoil(wrong.character);
+        return refusalOf(writeCooked(wrong, ""));
+    };
+    using cage::Character;
+    const std::string place = "hero.supple: ";
+    EXPECT_EQ(spoiled([](Character& c) { c.cloths[0].substeps = 0; }), place + "cloth 0: its numbers are out of range");
+    EXPECT_EQ(spoiled([](Character& c) { c.cloths[0].bend = std::numeric_limits<float>::quiet_NaN(); }),
+              place + "cloth 0: its numbers are out of range");
+    EXPECT_EQ(spoiled([](Character& c) { c.cloths[0].colliders.push_back(7); }),
+              place + "cloth 0: it names no collider of spring bones");
+    EXPECT_EQ(spoiled([](Character& c) { c.weights.cloths.pop_back(); }), place + "not one weight of cloths a vertex");
+    EXPECT_EQ(spoiled([](Character& c) {
+                  c.weights.cloths[3] = {1, 0.5f};
+              }),
+              place + "a vertex names no cloth, or has no weight above 0 to 1");
 }
 
 TEST(Cooked, FilesKeepPoseDrivers) {

@@ -36,9 +36,9 @@ const std::vector<std::byte>& armFile() {
     static const std::vector<std::byte> bytes = testData("/drivers/arm.glb");
     return bytes;
 }
-/// A belly jiggles.
-const std::vector<std::byte>& bellyFile() {
-    static const std::vector<std::byte> bytes = testData("/jiggle/belly.glb");
+/// A belly jiggles, and a cape hangs.
+const std::vector<std::byte>& capedFile() {
+    static const std::vector<std::byte> bytes = testData("/cloth/caped.glb");
     return bytes;
 }
 /// Hair and a scarf swing.
@@ -67,7 +67,7 @@ const SceneKind kKinds[] = {
      SUPPLE_VIEW_MOTION | SUPPLE_VIEW_CULL, 1 << 20},
     {"with drivers", SUPPLE_SCHEME_PM, 0, kPlayFlags, SUPPLE_VIEW_CULL, 0, armFile},
     {"with springs", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION, kPlayFlags | SUPPLE_GROUP_SPRINGS, {}, 0, wrenFile},
-    {"with jiggle", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION, kPlayFlags | SUPPLE_GROUP_SOFT, {}, 0, bellyFile},
+    {"with what is soft", SUPPLE_SCHEME_PM, SUPPLE_GROUP_MOTION, kPlayFlags | SUPPLE_GROUP_SOFT, {}, 0, capedFile},
 };
 
 /// Two groups whose poses are set and one that plays, of different characters, and one that draws the second's
@@ -436,7 +436,7 @@ TEST_F(KeptTasks, AreNeverStaleWithDrivers) {
 TEST_F(KeptTasks, AreNeverStaleWithSprings) {
     expectNeverStale(kKinds[5], 2, 3);
 }
-TEST_F(KeptTasks, AreNeverStaleWithJiggle) {
+TEST_F(KeptTasks, AreNeverStaleWithWhatIsSoft) {
     expectNeverStale(kKinds[6], 2, 3);
 }
 /// Where nothing changes, not a byte of tasks is copied: also where coefficients take turns.

@@ -199,7 +199,7 @@ TEST(Jiggles, TableHasTheVerticesThatDo) {
     const ClipTable clips = buildClipTable(tube);
     size_t marked = 0;
     for (uint32_t place = 0; place < clips.nodes.size(); ++place) {
-        marked += (clips.words[4 * size_t{kNodeElements * place} + 1] & kNodeOfJiggles) != 0 ? 1 : 0;
+        marked += (clips.words[4 * size_t{kNodeElements * place} + 1] & kNodeOfSoft) != 0 ? 1 : 0;
     }
     EXPECT_GE(marked, 1u);
 }

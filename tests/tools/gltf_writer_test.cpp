@@ -321,6 +321,37 @@ TEST(GltfWriter, JigglesComeBack) {
     EXPECT_EQ(again->warnings, std::vector<std::string>());
 }
 
+TEST(GltfWriter, ClothsComeBack) {
+    const Result<Character> caped = readGltfFile(std::string(SUPPLE_TEST_DATA) + "/cloth/caped.glb", {.strict = true});
+    ASSERT_TRUE(caped.ok()) << caped.error().message;
+    Character character = *caped;
+    ASSERT_EQ(character.cloths.size(), 1u);
+    Cloth& own = character.cloths[0];
+    EXPECT_EQ(own.colliders, std::vector<uint32_t>{0});
+    EXPECT_EQ(own.hitRadius, 0.015f);
+    own = {1e-6f, 2e-6f, 5e-3f, true, 1.25f, 0.25f, 0.5f, 4.5f, 0.03125f, 3, {1, 0}};
+    SpringCollider plane;
+    plane.node = character.springBones.colliders.at(0).node;
+    plane.shape = ColliderShape::plane;
+    plane.tail = {0.0f, 1.0f, 0.0f};
+    character.springBones.colliders.push_back(plane);
+    character.weights.cloths[character.cage.vertexCount() - 1].weight = 0.75f;
+    const std::vector<std::byte> bytes = writeWell(character);
+    const Result<Character> again = readGltf(bytes, "caped.glb", "", {.strict = true});
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    EXPECT_EQ(again->cloths, character.cloths);
+    EXPECT_EQ(again->weights.cloths, character.weights.cloths);
+    ASSERT_EQ(again->springBones.colliders.size(), 2u);
+    for (size_t i = 0; i < 2; ++i) {
+        const SpringCollider &is = again->springBones.colliders[i], &was = character.springBones.colliders[i];
+        EXPECT_EQ(is.node, was.node);
+        EXPECT_EQ(is.shape, was.shape);
+        EXPECT_EQ(is.tail, was.tail);
+        EXPECT_EQ(is.radius, was.radius);
+    }
+    EXPECT_EQ(again->warnings, std::vector<std::string>());
+}
+
 TEST(GltfWriter, TheExtensionByHand) {
     const Glb glb(writeWell(richCharacter()));
     EXPECT_EQ(glb.root["extensionsUsed"], json({"FB_ngon_encoding", "SUPPLE_mesh_cage", "SUPPLE_deformers",

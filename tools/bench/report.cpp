@@ -276,10 +276,12 @@ std::string updateRateTable(const Json& rows) {
     for (const Json& row : rows) {
         const auto interval = row["interval"].get<uint32_t>();
         const auto springs = row.value("springJoints", 0u), jiggling = row.value("jiggling", 0u);
+        const auto cloth = row.value("cloth", 0u);
         const auto targets = row.value("morphTargets", 0u), drivers = row.value("drivers", 0u);
         const std::string what =
             springs > 0     ? std::to_string(springs) + " joints swing"
             : jiggling > 0  ? std::to_string(jiggling) + " vertices jiggle"
+            : cloth > 0     ? std::to_string(cloth) + " vertices are cloth"
             : drivers > 0   ? std::to_string(drivers) + " pose drivers of " + std::to_string(targets) + " morph targets"
             : targets > 0   ? std::to_string(targets) + " morph targets"
             : interval == 0 ? "without update rates"

@@ -17,9 +17,9 @@ namespace {
 constexpr uint32_t kWarmRateFrames = 9; ///< more than the longest interval
 constexpr double kRatedFrameSeconds = 1.0 / 60.0;
 
-/// What the character has besides: springs, morph targets, drivers of them, vertices that jiggle.
-enum class Has : size_t { springs, targets, drivers, jiggles };
-constexpr size_t kCharacters = 4;
+/// What the character has besides: springs, morph targets, drivers of them, vertices that jiggle, a cloth.
+enum class Has : size_t { springs, targets, drivers, jiggles, cloth };
+constexpr size_t kCharacters = 5;
 constexpr bool hasTargets(Has has) {
     return has == Has::targets || has == Has::drivers;
 }
@@ -29,8 +29,16 @@ constexpr struct RatedKind {
     uint32_t interval;
     bool swings = false;
     Has has = Has::springs;
-} kRatedKinds[] = {
-    {0}, {1}, {2}, {4}, {8}, {0, true}, {0, false, Has::targets}, {0, false, Has::drivers}, {0, true, Has::jiggles}};
+} kRatedKinds[] = {{0},
+                   {1},
+                   {2},
+                   {4},
+                   {8},
+                   {0, true},
+                   {0, false, Has::targets},
+                   {0, false, Has::drivers},
+                   {0, true, Has::jiggles},
+                   {0, true, Has::cloth}};
 
 /// Four chains of three joints that swing, and a collider.
 constexpr uint32_t kChains = 4, kChainJoints = 3;
@@ -102,6 +110,33 @@ void addJiggles(cage::Character& character) {
     }
 }
 
+/// As many vertices as a cape has, side by side; a collider.
+constexpr uint32_t kClothVertices = 180;
+void addCloth(cage::Character& character) {
+    character.springBones.colliders.push_back({.node = character.skin.joints.front(), .radius = 0.1f});
+    character.cloths.push_back({.colliders = {0}});
+    character.weights.cloths.resize(character.cage.vertexCount());
+    for (uint32_t v = 0; v < std::min(kClothVertices, character.cage.vertexCount()); ++v) {
+        character.weights.cloths[v] = {0, 1.0f};
+    }
+}
+
+void add(Has has, cage::Character& character) {
+    switch (has) {
+    case Has::springs:
+        return addSprings(character);
+    case Has::targets:
+        return addTargets(character);
+    case Has::drivers:
+        addTargets(character);
+        return addDrivers(character);
+    case Has::jiggles:
+        return addJiggles(character);
+    case Has::cloth:
+        return addCloth(character);
+    }
+}
+
 struct RatedGroup {
     RatedKind kind;
     SuppleGroup group{};
@@ -131,7 +166,7 @@ public:
             if (kind.interval != 0) {
                 desc.flags = SUPPLE_GROUP_UPDATE_RATES;
             } else if (kind.swings) {
-                desc.flags = kind.has == Has::jiggles ? SUPPLE_GROUP_SOFT : SUPPLE_GROUP_SPRINGS;
+                desc.flags = kind.has == Has::springs ? SUPPLE_GROUP_SPRINGS : SUPPLE_GROUP_SOFT;
             }
             const Result<SuppleGroup> made = workbench_.createGroup(desc, kind.interval);
             if (!made) {
@@ -164,6 +199,7 @@ public:
                  {"interval", own.kind.interval},
                  {"springJoints", own.kind.swings && own.kind.has == Has::springs ? kChains * kChainJoints : 0},
                  {"jiggling", own.kind.has == Has::jiggles ? kJiggling : 0},
+                 {"cloth", own.kind.has == Has::cloth ? kClothVertices : 0},
                  {"morphTargets", hasTargets(own.kind.has) ? kDrivers * kDriverTargets : 0},
                  {"drivers", own.kind.has == Has::drivers ? kDrivers : 0},
                  {"posed", static_cast<double>(own.posed) / joints / frames},
@@ -231,16 +267,7 @@ Result<Json> measureUpdateRates(host::Device& device, Workbench& workbench, cons
         if (!character) {
             return character.error();
         }
-        if (has == static_cast<size_t>(Has::springs)) {
-            addSprings(character->character);
-        } else if (hasTargets(static_cast<Has>(has))) {
-            addTargets(character->character);
-        } else {
-            addJiggles(character->character);
-        }
-        if (has == static_cast<size_t>(Has::drivers)) {
-            addDrivers(character->character);
-        }
+        add(static_cast<Has>(has), character->character);
         const Result<SuppleAsset> made = workbench.createAsset(std::move(character->character));
         status = made ? success() : Status(made.error());
         assets[has] = made ? *made : SuppleAsset{};

@@ -5,7 +5,7 @@
 #include "cage/message.h"
 #include "cage/ngon_fans.h"
 #include "cage/refusal.h"
-#include "tools/gltf/jiggle_writer.h"
+#include "tools/gltf/soft_writer.h"
 
 #include <algorithm>
 #include <array>
@@ -225,7 +225,8 @@ private:
                 packer_.addFloats("SCALAR", floatsOf(gathered(values_.tiles, part)), Target::vertices);
         }
         writeSkin(part, attributes);
-        writeJiggles(part, attributes);
+        writePainted(part, character_.weights.jiggles, character_.jiggles.size(), jiggleAttribute, attributes);
+        writePainted(part, character_.weights.cloths, character_.cloths.size(), clothAttribute, attributes);
 
         const auto vertexCount = static_cast<uint32_t>(part.corners.size());
         json primitive = {{"attributes", std::move(attributes)}, {"mode", 4}};
@@ -290,14 +291,14 @@ private:
         }
     }
 
-    void writeJiggles(const WrittenPrimitive& part, json& attributes) {
-        for (size_t j = 0; j < character_.jiggles.size(); ++j) {
+    void writePainted(const WrittenPrimitive& part, const std::vector<PaintedWeight>& all, size_t count,
+                      std::string (*nameOf)(size_t), json& attributes) {
+        for (size_t k = 0; k < count; ++k) {
             std::vector<float> weights;
             for (const uint32_t v : part.cageVertices) {
-                const JiggleWeight& own = character_.weights.jiggles[v];
-                weights.push_back(own.jiggle == j ? own.weight : 0.0f);
+                weights.push_back(all[v].index == k ? all[v].weight : 0.0f);
             }
-            attributes[jiggleAttribute(j)] = packer_.addFloats("SCALAR", weights, Target::vertices);
+            attributes[nameOf(k)] = packer_.addFloats("SCALAR", weights, Target::vertices);
         }
     }
 

@@ -5,7 +5,7 @@
 #include "cage/parts.h"
 #include "cage/refusal.h"
 #include "tools/gltf/driver_writer.h"
-#include "tools/gltf/jiggle_writer.h"
+#include "tools/gltf/soft_writer.h"
 #include "tools/gltf/material_writer.h"
 #include "tools/gltf/mesh_writer.h"
 #include "tools/gltf/packer.h"
@@ -342,6 +342,9 @@ json writeMeshes(const Character& character, const Skins& skins, Packer& packer,
         if (!part.jiggles.empty()) {
             mesh["extensions"]["SUPPLE_deformers"]["jiggle"] = writeJiggles(part.jiggles);
         }
+        if (!part.cloths.empty()) {
+            mesh["extensions"]["SUPPLE_deformers"]["cloth"] = writeCloths(part.cloths);
+        }
         meshes.push_back(std::move(mesh));
     }
     reportFeatures(character.cage, file.warnings);
@@ -366,10 +369,11 @@ GlbFile toGlb(const Character& character) {
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
     if (std::any_of(character.parts.begin(), character.parts.end(),
                     [](const Part& part) { return part.skinning.has_value(); }) ||
-        !character.drivers.empty() || !character.jiggles.empty()) {
+        !character.drivers.empty() || !character.jiggles.empty() || !character.cloths.empty()) {
         root["extensionsUsed"].push_back("SUPPLE_deformers");
     }
     writeNodes(character, skins, root, file.warnings);
+    writeColliders(character, root);
     root["meshes"] = writeMeshes(character, skins, packer, file);
     for (const std::vector<uint32_t>& joints : skins.joints) {
         root["skins"].push_back(writeSkin(character.skin, joints, packer));

@@ -13,7 +13,7 @@
 #include "tools/supple/compare.h"
 #include "tools/supple/folds.h"
 #include "tools/supple/inspect_drivers.h"
-#include "tools/supple/inspect_jiggles.h"
+#include "tools/supple/inspect_soft.h"
 #include "tools/supple/inspect_materials.h"
 #include "tools/supple/inspect_parts.h"
 #include "tools/supple/memory_report.h"
@@ -333,6 +333,7 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     }
     json["drivers"] = driversToJson(character);
     json["jiggles"] = jigglesToJson(character);
+    json["cloths"] = clothsToJson(character);
     json["springs"] = Json::array();
     for (const cage::Spring& spring : character.springBones.springs) {
         json["springs"].push_back({{"name", spring.name}, {"joints", spring.joints.size()}});
@@ -539,6 +540,12 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         printLine("jiggles", std::to_string(character.jiggles.size()));
     }
     for (const std::string& line : jiggleLines(character)) {
+        printLine("", line);
+    }
+    if (!character.cloths.empty()) {
+        printLine("cloths", std::to_string(character.cloths.size()));
+    }
+    for (const std::string& line : clothLines(character)) {
         printLine("", line);
     }
     printVrm(character);

@@ -1042,13 +1042,13 @@ typedef enum SuppleGroupFlags {
      * time is SuppleRecordDesc.time. A step is posed straight between the pose of the frame before and that of its own,
      * so what it leaves depends on frames too. No box is known of such instances before they are posed. */
     SUPPLE_GROUP_SPRINGS = 8192,
-    /** With SUPPLE_POSES_PLAYBACK: vertices that the character's file paints jiggle about where joints have them
-     * (SUPPLE_deformers: docs/soft.md), in steps of 1/60 s of the group's time, behind springs if the group has these.
-     * What a step leaves depends on the times at which calls are made, not on the frames between. It has no effect if
-     * the file paints none. They begin at rest in the pose where springs do (SUPPLE_GROUP_SPRINGS), but swing on over
-     * time that frames leave out; suppleTeleport keeps how they move. All visible instances are posed, in sight or not,
-     * so that cameras change nothing. Device memory for an instance: 64 bytes for each vertex that jiggles, 768, 9
-     * times the matrices of all nodes, twice what is played, 8 poses. It does not go with SUPPLE_GROUP_UPDATE_RATES. */
+    /** With SUPPLE_POSES_PLAYBACK: vertices that the character's file paints jiggle about where joints have them, or
+     * hang as cloth (SUPPLE_deformers: docs/soft.md, docs/cloth.md), in steps of 1/60 s of the group's time, behind
+     * springs if the group has these. What a step leaves depends on the times at which calls are made, not on frames.
+     * Without such vertices it has no effect. They begin at rest where springs do, but over time that frames leave out
+     * they jiggle on, and cloth keeps its shape; suppleTeleport keeps how they move. All visible instances are posed,
+     * in sight or not. Device memory for an instance: 64 bytes for each such vertex, 80 if its volume is kept, 768, 112
+     * for each cloth, 9 times all node matrices, twice what is played, 8 poses. It does not go with UPDATE_RATES. */
     SUPPLE_GROUP_SOFT = 16384,
     /** Groups without a view, in a context with SUPPLE_CONTEXT_RAY_TRACING: the host may build acceleration structures
      * from the surface vertices (suppleGetRayGeometry). Grids have 12 bytes of indices more for each triangle of an

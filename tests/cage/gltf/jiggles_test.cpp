@@ -42,7 +42,7 @@ TEST(GltfJiggles, AreReadAsTheyStand) {
     for (uint32_t v = 0; v < c.cage.vertexCount(); ++v) {
         const glm::vec3& p = c.cage.positions[v];
         const float weight = p == glm::vec3(1, 0, 0) ? 1.0f : p == glm::vec3(0, 1, 0) ? 0.5f : 0.0f;
-        EXPECT_EQ(c.weights.jiggles[v], (weight > 0.0f ? JiggleWeight{0, weight} : JiggleWeight{})) << v;
+        EXPECT_EQ(c.weights.jiggles[v], (weight > 0.0f ? PaintedWeight{0, weight} : PaintedWeight{})) << v;
     }
     EXPECT_EQ(c.warnings, Strings());
     const Character usual = readWell(painted(R"([{"weights":"_SUPPLE_JIGGLE_0"}])"), kStrict);
@@ -57,10 +57,10 @@ TEST(GltfJiggles, AVertexHasTheOneWithMostWeight) {
     for (uint32_t v = 0; v < c.cage.vertexCount(); ++v) {
         const glm::vec3& p = c.cage.positions[v];
         if (p == glm::vec3(1, 0, 0)) {
-            EXPECT_EQ(c.weights.jiggles[v], (JiggleWeight{0, 1.0f})) << "of equal ones the first";
+            EXPECT_EQ(c.weights.jiggles[v], (PaintedWeight{0, 1.0f})) << "of equal ones the first";
         }
         if (p == glm::vec3(0, 1, 0)) {
-            EXPECT_EQ(c.weights.jiggles[v], (JiggleWeight{1, 0.75f}));
+            EXPECT_EQ(c.weights.jiggles[v], (PaintedWeight{1, 0.75f}));
         }
     }
 }

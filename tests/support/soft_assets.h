@@ -1,4 +1,4 @@
-// A sample that jiggles.
+// Samples of what is soft.
 #pragma once
 
 #include "cage/gltf/reader.h"
@@ -11,8 +11,8 @@
 
 namespace supple::test {
 
-/// A round figure that hops (tests/support/belly.py).
-inline const std::string kBellyFile = std::string(SUPPLE_TEST_DATA) + "/jiggle/belly.glb";
+/// The same with a cape (tests/support/cape.py).
+inline const std::string kCapedFile = std::string(SUPPLE_TEST_DATA) + "/cloth/caped.glb";
 
 /// Wren, her middle painted to jiggle softly, her head to jiggle fast. `extensions`: of the file.
 inline cage::Character jigglingWren(const std::string& extensions = "\"X\":{}") {
@@ -23,9 +23,9 @@ inline cage::Character jigglingWren(const std::string& extensions = "\"X\":{}") 
     for (const glm::vec3& p : wren.cage.positions) {
         const bool middle = p.y > 0.8f && p.y < 1.2f;
         const bool head = p.y > 1.5f;
-        wren.weights.jiggles.push_back(middle ? cage::JiggleWeight{0, (p.y - 0.8f) / 0.4f}
-                                       : head ? cage::JiggleWeight{1, 1.0f}
-                                              : cage::JiggleWeight{});
+        wren.weights.jiggles.push_back(middle ? cage::PaintedWeight{0, (p.y - 0.8f) / 0.4f}
+                                       : head ? cage::PaintedWeight{1, 1.0f}
+                                              : cage::PaintedWeight{});
     }
     return wren;
 }

@@ -1,8 +1,8 @@
-// Groups of cages whose vertices jiggle.
+// Groups of cages of which something is soft.
 #pragma once
 
-#include "tests/support/jiggles.h"
 #include "tests/support/played_group.h"
+#include "tests/support/soft_assets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,12 @@ inline double cagesApart(const Floats& a, const Floats& b) {
     return most;
 }
 
-/// A group of cages whose vertices jiggle.
-class JigglingGroup : public PlayedGroup {
+/// A group of cages of which something is soft.
+class SoftGroup : public PlayedGroup {
 public:
-    JigglingGroup(CrowdContext& context, const SuppleGroupDesc& desc) : PlayedGroup(context, desc) {}
+    SoftGroup(CrowdContext& context, const SuppleGroupDesc& desc) : PlayedGroup(context, desc) {}
 
-    void jiggle(double time) {
+    void frame(double time) {
         EXPECT_EQ(suppleSetTime(handle(), crowd.group(), time), SUPPLE_OK);
         crowd.context().run(crowd.group());
         cages = as<float>(crowd.read(crowd.output().info.deformedCage));
@@ -40,28 +40,30 @@ public:
         return {begin, begin + static_cast<ptrdiff_t>(4 * size_t{character().cage.vertexCount()})};
     }
 
+    [[nodiscard]] uint32_t clipCount() const { return static_cast<uint32_t>(character().clips.size()); }
+
     Floats cages;
 };
 
-/// Two groups that do the same, but for what a test does to the first.
-class JigglingPair {
+/// Two groups of a figure with a belly and a cape that do the same, but for what a test does to the first.
+class SoftPair {
 public:
-    JigglingPair(CrowdContext& context, uint32_t capacity)
-        : asset(context.createAsset(jigglingWren())), other(context, playedGroup(asset, capacity, kSoft)),
-          plain(context, playedGroup(context.createAsset(jigglingWren()), capacity, kSoft)) {
+    SoftPair(CrowdContext& context, uint32_t capacity)
+        : asset(context.asset(kCapedFile)), other(context, playedGroup(asset, capacity, kSoft)),
+          plain(context, playedGroup(asset, capacity, kSoft)) {
         for (uint32_t i = 0; i < capacity; ++i) {
-            other.play(i, 2, 0.1 * i);
-            plain.play(i, 2, 0.1 * i);
+            other.play(i, i % 2, 0.1 * i);
+            plain.play(i, i % 2, 0.1 * i);
         }
     }
     void run(uint32_t step) {
-        other.jiggle(step / 60.0);
-        plain.jiggle(step / 60.0);
+        other.frame(step / 60.0);
+        plain.frame(step / 60.0);
     }
     [[nodiscard]] bool same(uint32_t i) const { return other.shown(i) == plain.shown(i); }
 
     SuppleAsset asset;
-    JigglingGroup other, plain;
+    SoftGroup other, plain;
 };
 
 } // namespace supple::test

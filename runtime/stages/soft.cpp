@@ -1,11 +1,11 @@
-#include "runtime/stages/jiggle.h"
+#include "runtime/stages/soft.h"
 
 #include "gpu/bound_sets.h"
 #include "gpu/tasks.h"
 #include "runtime/instance_state.h"
 #include "runtime/playback.h"
 #include "shaders/shared/deform.h"
-#include "skinning/jiggle_kernels.h"
+#include "skinning/soft_kernels.h"
 
 namespace supple::runtime {
 
@@ -13,23 +13,25 @@ namespace {
 
 using namespace supple::shared;
 
-struct JiggleStageKernels final : CageKernels {
-    skinning::JiggleKernels kernels;
+using skinning::SoftKind;
+
+struct SoftStageKernels final : CageKernels {
+    skinning::SoftKernels kernels;
 };
 
-class JiggleStage final : public CageStage {
+class SoftStage final : public CageStage {
 public:
-    JiggleStage(const CageStageDesc& desc, const skinning::JiggleKernels& own)
-        : device_(desc.device), asset_(desc.asset), instances_(desc.instances), kernels_(&own) {
+    /// `soft`: of the asset.
+    SoftStage(const CageStageDesc& desc, const SoftOfAsset& soft, const skinning::SoftKernels& own)
+        : device_(desc.device), asset_(desc.asset), soft_(&soft), instances_(desc.instances), kernels_(&own) {
         constexpr uint32_t kPadding = 16; // elements: descriptor offsets need at most 256-byte alignment
-        const uint32_t elements = kJiggleVertices + kJiggleElements * asset_->jiggleCount;
-        stateStride_ = (elements + kPadding - 1) / kPadding * kPadding;
+        stateStride_ = (soft.stateElements + kPadding - 1) / kPadding * kPadding;
     }
 
     [[nodiscard]] Status createState() {
         addMember(state_);
         return state_.create(*device_, instances_->capacity(), VkDeviceSize{stateStride_} * gpu::kVec4Bytes,
-                             "supple jiggles");
+                             "supple soft state");
     }
 
     [[nodiscard]] BoundBytes boundBytes() const override { return {state_.bytes(), 0}; }
@@ -37,7 +39,7 @@ public:
     [[nodiscard]] Status createSets(const CageBuffers& buffers) override {
         cageStride_ = buffers.stride;
         const InstanceWindows& windows = buffers.listing->windows();
-        Status status = sets_.create(*device_, kernels_->layout(), windows.count(), "supple jiggle");
+        Status status = sets_.create(*device_, kernels_->layout(), windows.count(), "supple soft");
         for (uint32_t w = 0; w < windows.count() && status; ++w) {
             status = writeSet(w, buffers);
         }
@@ -46,7 +48,7 @@ public:
 
     void takeOver(CageStage& other, uint32_t count, const AssetMatch& match) override {
         if (match.same) {
-            state_.takeOver(static_cast<JiggleStage&>(other).state_, count);
+            state_.takeOver(static_cast<SoftStage&>(other).state_, count);
         }
     }
 
@@ -60,10 +62,10 @@ public:
     PassCost record(const CageFrame& frame) override {
         uint64_t vertices = 0;
         frame.windows.forEach([&](uint32_t w) {
-            const JigglePush push = pushOf(w);
+            const SoftPush push = pushOf(w);
             if (push.instanceCount > 0) {
                 kernels_->record(frame.dispatches, sets_[w], instances_->skinning(), push);
-                vertices += uint64_t{push.vertexCount} * push.instanceCount;
+                vertices += uint64_t{push.count} * push.instanceCount;
             }
         });
         return {vertices, vertices * gpu::kVec4Bytes};
@@ -72,7 +74,7 @@ public:
     void recordWarmUp(VkCommandBuffer commandBuffer) const override {
         gpu::OwnDispatches dispatches(*device_, commandBuffer);
         dispatches->computeBarrier();
-        JigglePush push{}; // of no instances
+        SoftPush push{}; // of no instances
         push.firstInfluences = asset_->firstInfluences;
         kernels_->record(*dispatches, sets_[0], instances_->skinning(), push);
     }
@@ -84,7 +86,7 @@ private:
         const InstanceWindows& windows = buffers.listing->windows();
         const Playback::StepPoses steps = playback().stepPoses();
         const gpu::StaticBuffers& table = asset_->deformTable(instances_->skinning());
-        const gpu::StaticBuffers& jiggles = asset_->jiggles;
+        const gpu::StaticBuffers& soft = soft_->table;
         Status status = success();
         const auto view = [&](const VkDescriptorBufferInfo& info, VkFormat format, const char* name) {
             return views_.make(*device_, info.buffer, format, info.offset, info.range, name, status);
@@ -93,7 +95,7 @@ private:
             return VkDescriptorBufferInfo{buffer, windows.firstSlot(w) * bytes, windows.slots(w) * bytes};
         };
         const VkDescriptorBufferInfo tableRange{table.buffer(0), 0, table.size(0)};
-        const VkDescriptorBufferInfo jiggleRange{jiggles.buffer(0), 0, jiggles.size(0)};
+        const VkDescriptorBufferInfo softRange{soft.buffer(0), 0, soft.size(0)};
         const VkDescriptorBufferInfo list{steps.list, 0, steps.listBytes};
         const VkDescriptorBufferInfo poses = range(steps.poses, steps.poseBytes);
         const VkDescriptorBufferInfo scratch = range(steps.scratch, steps.scratchBytes);
@@ -103,11 +105,11 @@ private:
             {kPoseBinding, poses, VK_NULL_HANDLE},
             {kPoseTexelBinding, {}, view(poses, gpu::kFloat4, "supple steps")},
             {kDeformedCageBinding, range(buffers.to, VkDeviceSize{cageStride_} * gpu::kVec4Bytes), VK_NULL_HANDLE},
-            {kJiggleTableBinding, jiggleRange, VK_NULL_HANDLE},
-            {kJiggleTableTexelBinding, {}, view(jiggleRange, gpu::kUint4, "supple jiggle table")},
-            {kJiggleStateBinding, range(state_.buffer(), state_.bytes()), VK_NULL_HANDLE},
-            {kJigglePlaceBinding, scratch, VK_NULL_HANDLE},
-            {kJigglePlaceTexelBinding, {}, view(scratch, gpu::kFloat4, "supple node matrices")},
+            {kSoftTableBinding, softRange, VK_NULL_HANDLE},
+            {kSoftTableTexelBinding, {}, view(softRange, gpu::kUint4, "supple soft table")},
+            {kSoftStateBinding, range(state_.buffer(), state_.bytes()), VK_NULL_HANDLE},
+            {kSoftPlaceBinding, scratch, VK_NULL_HANDLE},
+            {kSoftPlaceTexelBinding, {}, view(scratch, gpu::kFloat4, "supple node matrices")},
             {kInstanceBinding, list, VK_NULL_HANDLE},
             {kInstanceTexelBinding, {}, view(list, VK_FORMAT_R32_UINT, "supple list of poses")},
         };
@@ -117,11 +119,11 @@ private:
         return status;
     }
 
-    [[nodiscard]] JigglePush pushOf(uint32_t window) const {
+    [[nodiscard]] SoftPush pushOf(uint32_t window) const {
         const Playback::StepPoses steps = playback().stepPoses();
         const PoseList::Window& listed = playback().listedPoses(window);
-        JigglePush push{};
-        push.vertexCount = asset_->jiggleCount;
+        SoftPush push{};
+        push.count = soft_->count;
         push.firstInstance = listed.poses.first;
         push.instanceCount = listed.swinging.count;
         push.swinging = listed.swinging.first;
@@ -140,37 +142,34 @@ private:
 
     const gpu::Device* device_;
     const Asset* asset_;
+    const SoftOfAsset* soft_;
     const InstanceSet* instances_;
-    const skinning::JiggleKernels* kernels_;
+    const skinning::SoftKernels* kernels_;
     uint32_t stateStride_ = 0, cageStride_ = 0; ///< elements of an instance
     InstanceState state_;
     gpu::TexelViews views_;
     gpu::BoundSets sets_; ///< by window
 };
 
-} // namespace
-
-Result<std::unique_ptr<CageKernels>> makeJiggleKernels(const gpu::Device& device, gpu::Pipelines& pipelines) {
-    Result<skinning::JiggleKernels> made = skinning::JiggleKernels::create(device, pipelines);
+Result<std::unique_ptr<CageKernels>> makeSoftKernels(const gpu::Device& device, gpu::Pipelines& pipelines,
+                                                     SoftKind kind) {
+    Result<skinning::SoftKernels> made = skinning::SoftKernels::create(device, pipelines, kind);
     if (!made) {
         return made.error();
     }
-    auto kernels = std::make_unique<JiggleStageKernels>();
+    auto kernels = std::make_unique<SoftStageKernels>();
     kernels->kernels = std::move(*made);
     return std::unique_ptr<CageKernels>(std::move(kernels));
 }
 
-bool wantsJiggle(const CageStageDesc& desc) {
-    return desc.deforms && desc.instances->room().jiggles;
-}
-
-Result<std::unique_ptr<CageStage>> makeJiggle(const CageStageDesc& desc, CageKernels& kernels) {
-    skinning::JiggleKernels& own = static_cast<JiggleStageKernels&>(kernels).kernels;
+Result<std::unique_ptr<CageStage>> makeSoftStage(const CageStageDesc& desc, const SoftOfAsset& soft,
+                                                 CageKernels& kernels) {
+    skinning::SoftKernels& own = static_cast<SoftStageKernels&>(kernels).kernels;
     const Status prepared = own.prepare(desc.instances->skinning(), desc.asset->firstInfluences != 0);
     if (!prepared) {
         return prepared.error();
     }
-    auto stage = std::make_unique<JiggleStage>(desc, own);
+    auto stage = std::make_unique<SoftStage>(desc, soft, own);
     const Status created = stage->createState();
     if (!created) {
         return created.error();
@@ -178,12 +177,44 @@ Result<std::unique_ptr<CageStage>> makeJiggle(const CageStageDesc& desc, CageKer
     return std::unique_ptr<CageStage>(std::move(stage));
 }
 
-Status makeJigglePipelines(const PlannedStages& planned, const CageKernels& kernels) {
-    if (!planned.jiggles) {
+Status makeSoftPipelines(bool wanted, const PlannedStages& planned, const CageKernels& kernels) {
+    if (!wanted) {
         return success();
     }
-    const auto made = static_cast<const JiggleStageKernels&>(kernels).kernels.make(planned.skinning, planned.morphs);
+    const auto made = static_cast<const SoftStageKernels&>(kernels).kernels.make(planned.skinning, planned.morphs);
     return made ? success() : made.error();
+}
+
+bool wantsSoft(const CageStageDesc& desc, const SoftOfAsset& soft) {
+    return desc.deforms && desc.instances->room().soft && soft.count > 0;
+}
+
+} // namespace
+
+Result<std::unique_ptr<CageKernels>> makeJiggleKernels(const gpu::Device& device, gpu::Pipelines& pipelines) {
+    return makeSoftKernels(device, pipelines, SoftKind::jiggle);
+}
+bool wantsJiggle(const CageStageDesc& desc) {
+    return wantsSoft(desc, desc.asset->jiggles);
+}
+Result<std::unique_ptr<CageStage>> makeJiggle(const CageStageDesc& desc, CageKernels& kernels) {
+    return makeSoftStage(desc, desc.asset->jiggles, kernels);
+}
+Status makeJigglePipelines(const PlannedStages& planned, const CageKernels& kernels) {
+    return makeSoftPipelines(planned.jiggles, planned, kernels);
+}
+
+Result<std::unique_ptr<CageKernels>> makeClothKernels(const gpu::Device& device, gpu::Pipelines& pipelines) {
+    return makeSoftKernels(device, pipelines, SoftKind::cloth);
+}
+bool wantsCloth(const CageStageDesc& desc) {
+    return wantsSoft(desc, desc.asset->cloths);
+}
+Result<std::unique_ptr<CageStage>> makeCloth(const CageStageDesc& desc, CageKernels& kernels) {
+    return makeSoftStage(desc, desc.asset->cloths, kernels);
+}
+Status makeClothPipelines(const PlannedStages& planned, const CageKernels& kernels) {
+    return makeSoftPipelines(planned.cloths, planned, kernels);
 }
 
 } // namespace supple::runtime
