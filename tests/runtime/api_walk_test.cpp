@@ -2895,7 +2895,7 @@ TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
 TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
     std::string header;
     std::vector<const char*> names{"supple.h",           "supple_view.h",      "supple_playback.h", "supple_prepare.h",
-                                   "supple_character.h", "supple_recording.h", "supple_points.h"};
+                                   "supple_character.h", "supple_recording.h", "supple_points.h",   "supple_rays.h"};
 #if defined(SUPPLE_WITH_CPU)
     names.push_back("supple_cpu.h");
 #endif
