@@ -80,7 +80,7 @@ struct PassRow {
     bool byCommands = false; ///< it records commands of its own, and nothing that groups share
 };
 
-/// The table, with what the cage stages stand for.
+/// The table. One row stands for all cage stages.
 [[nodiscard]] std::span<const PassRow> passRows();
 /// Calls ofRow(place, row) for each row of passRows(), and ofStage(place, stage, row) for each of the cage stages among
 /// them. A place is the number in this order (gpu/kept_tasks.h).

@@ -45,6 +45,7 @@ Status ListedBounds::createSets(VkBuffer cages, VkBuffer list) {
             {kHostListBinding, {list, 0, listBytes}, VK_NULL_HANDLE},
             {kHostListTexelBinding, {}, listView},
             {kCullViewBinding, {rest_.buffer(), 0, kViewBytes}, VK_NULL_HANDLE},
+            {kWantedBinding, {rest_.buffer(), kViewBytes, VK_WHOLE_SIZE}, VK_NULL_HANDLE}, // nothing is noted
         };
         if (status) {
             sets_.write(device, layout, w, resources);
