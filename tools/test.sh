@@ -23,7 +23,7 @@ npm_package SUPPLE_THREE three 0.187.0
 # Without its source package the tests of KTX2 say that they were left out.
 tools/basisu.sh || echo "Textures in KTX2 are left out: Basis Universal could not be fetched" >&2
 # Without these the test mingw builds the library alone, and windows_bakes says that it was left out.
-tools/windows_libraries.sh vulkan zlib png jpeg || echo "supple.exe is left out: its libraries could not be built" >&2
+tools/windows_libraries.sh || echo "supple.exe is left out: its libraries could not be built" >&2
 # demo.sh may have configured without the tests.
 cmake --preset release -DSUPPLE_BUILD_TESTS=ON
 cmake --build --preset release -j "$jobs"
