@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds Supple for Windows, from Debian, in build/windows: the library, bin/supple.exe and the samples minimal and c_host.
-# Usage: tools/windows.sh [cmake arguments, such as -DSUPPLE_WITH_DRACO=OFF]
+# Usage: tools/windows.sh [cmake arguments]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/packages.sh

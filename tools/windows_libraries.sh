@@ -2,14 +2,14 @@
 # Builds the libraries that the supple command links, for Windows, static, to build/windows-libraries: from the sources of this
 # Debian, by MinGW-w64. The preset `windows` finds them there. Nothing is installed.
 # Usage: tools/windows_libraries.sh [LIBRARY...]
-# Needed are vulkan, zlib, png and jpeg. Without meshopt, draco, webp or window (GLFW and Dear ImGui), supple says what it lacks.
+# Without arguments all: vulkan zlib png jpeg meshopt. The last can be left out, with SUPPLE_WITH_MESHOPT=OFF.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 source=$PWD
 prefix=${SUPPLE_WINDOWS_LIBRARIES:-$PWD/build/windows-libraries}
 triple=x86_64-w64-mingw32
-[ $# -gt 0 ] || set -- vulkan zlib png jpeg meshopt draco webp window
+[ $# -gt 0 ] || set -- vulkan zlib png jpeg meshopt
 for tool in apt-get dpkg-source cmake ninja $triple-gcc-posix $triple-g++-posix; do
     command -v "$tool" >/dev/null || { echo "$tool is missing" >&2; exit 3; }
 done
@@ -99,35 +99,8 @@ build_meshopt() {
     build_target meshoptimizer install
 }
 
-build_draco() {
-    build_target draco draco -DDRACO_TESTS=OFF
-    cp "$work/draco-build/libdraco.a" "$prefix/lib"
-    (cd "$work/draco/src" && find draco -name '*.h' -exec cp --parents -t "$prefix/include" {} +)
-    cp "$work/draco-build/draco/draco_features.h" "$prefix/include/draco"
-}
-
-build_webp() {
-    build_target libwebp install -DWEBP_BUILD_ANIM_UTILS=OFF -DWEBP_BUILD_CWEBP=OFF -DWEBP_BUILD_DWEBP=OFF \
-        -DWEBP_BUILD_GIF2WEBP=OFF -DWEBP_BUILD_IMG2WEBP=OFF -DWEBP_BUILD_VWEBP=OFF -DWEBP_BUILD_WEBPINFO=OFF \
-        -DWEBP_BUILD_EXTRAS=OFF -DWEBP_BUILD_WEBPMUX=OFF -DWEBP_BUILD_LIBWEBPMUX=ON
-}
-
-# Debian takes Dear ImGui's fonts from its own libstb; the source carries the same headers.
-build_window() {
-    build_target glfw3 install -DGLFW_BUILD_EXAMPLES=OFF -DGLFW_BUILD_TESTS=OFF -DGLFW_BUILD_DOCS=OFF
-    unpack imgui
-    local file
-    for file in "$work"/imgui/imgui*.cpp "$work"/imgui/backends/imgui_impl_{glfw,vulkan}.cpp; do
-        $triple-g++-posix -O2 -I"$work/imgui" -I"$work/imgui/backends" -I"$prefix/include" -c "$file" -o "$file.o"
-    done
-    $triple-ar rcs "$prefix/lib/libimgui.a" "$work"/imgui/*.o "$work"/imgui/backends/*.o
-    mkdir -p "$prefix/include/imgui/backends"
-    cp "$work"/imgui/*.h "$prefix/include/imgui"
-    cp "$work"/imgui/backends/imgui_impl_{glfw,vulkan}.h "$prefix/include/imgui/backends"
-}
-
 for library in "$@"; do
-    declare -F "build_$library" >/dev/null || { echo "$library is none of: vulkan zlib png jpeg meshopt draco webp window" >&2; exit 2; }
+    declare -F "build_$library" >/dev/null || { echo "$library is none of: vulkan zlib png jpeg meshopt" >&2; exit 2; }
     [ ! -e "$prefix/built/$library" ] || continue
     "build_$library"
     touch "$prefix/built/$library"

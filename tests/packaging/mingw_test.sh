@@ -35,7 +35,8 @@ fi
 quietly cmake -S "$source" -B "$work/build" -G Ninja --toolchain "$source/cmake/mingw-w64.cmake" "${launcher[@]}" \
     -DSUPPLE_WITH_MESHOPT=OFF -DSUPPLE_WITH_DRACO=OFF -DSUPPLE_BUILD_BOTH=ON -DSUPPLE_BUILD_TOOLS=$tools -DSUPPLE_BUILD_TESTS=OFF \
     -DSUPPLE_WINDOWS_LIBRARIES="$libraries" -DCMAKE_EXE_LINKER_FLAGS=-static -DCMAKE_SHARED_LINKER_FLAGS=-static \
-    -DSUPPLE_COMPILED_SHADERS="$build/generated" -DCMAKE_CXX_FLAGS=-O1 -DSUPPLE_UNITY_BATCH=30
+    -DSUPPLE_COMPILED_SHADERS="$build/generated" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
+    -DSUPPLE_UNITY_BATCH=30
 quietly cmake --build "$work/build" --target "${targets[@]}"
 rm -rf "$work/prefix"
 for component in runtime development; do
