@@ -66,20 +66,17 @@ struct PackedPlace {
     PackedTime at;
     uvec4 sections; // those of the clip or, while its segment is missing, of its twin
     uvec4 segment;
-    uint changing; // properties that change
 };
 PackedPlace packedPlace(uint head, vec2 time) {
     PackedPlace place;
     uvec4 own = table(head);
     place.at = packedTime(own, tableFloats(head + 2u).y, time);
     place.sections = table(head + 1u);
-    place.segment = table(place.sections.w + place.at.segment);
-    place.changing = own.z & 0xFFFFu;
+    place.segment = table(place.sections.z + place.at.segment);
     // The twin has the same frames. A loop, so that lavapipe can leave it out.
     for (uint twin = place.segment.w; twin != 0u; twin = 0u) {
         place.sections = table(twin + 1u);
-        place.segment = table(place.sections.w + place.at.segment);
-        place.changing = table(twin).z & 0xFFFFu;
+        place.segment = table(place.sections.z + place.at.segment);
     }
     return place;
 }
@@ -140,11 +137,9 @@ vec3 lowNumbers(uint own, uint lows, bool turns) {
                      powerOfHalf(-int((own >> 23u) & 15u)));
     return low;
 }
-PackedSpan packedSpan(PackedPlace place, uint property, uint own, bool turns) {
-    PackedKnots knots = packedKnots(packedWord(place.segment.x, property), place.at.frame, place.segment.z);
-    uvec4 records = table(place.segment.x + (place.changing + 3u) / 4u + property / 2u);
-    bool odd = (property & 1u) != 0u;
-    uint sizes = odd ? records.z : records.x, lows = odd ? records.w : records.y;
+PackedSpan packedSpan(PackedPlace place, uvec4 record, bool turns) {
+    PackedKnots knots = packedKnots(record.x, place.at.frame, place.segment.z);
+    uint own = record.y, sizes = record.z, lows = record.w;
     uvec4 outer = (uvec4(sizes) >> uvec4(0u, 5u, 10u, 0u)) & 31u, inner = (uvec4(sizes) >> uvec4(15u, 20u, 25u, 0u)) & 31u;
     uint outerBits = outer.x + outer.y + outer.z, innerBits = inner.x + inner.y + inner.z;
     uint at = (sizes >> 30u | (lows >> 15u) << 2u) + knots.pair * (outerBits + innerBits), element = place.segment.y + at / 128u;
@@ -207,10 +202,10 @@ Transform packedTransform(uint head, vec2 time, uint node, Transform rest) {
         uint path = uint(findLSB(paths));
         SUPPLE_PRECISE vec4 value = vec4(0.0f);
         if (((own.changing >> path) & 1u) != 0u) {
-            uint fixedWord = packedWord(place.sections.z, own.property);
-            PackedSpan span = packedSpan(place, own.property, fixedWord, path == 1u);
+            uvec4 record = table(place.segment.x + own.property);
+            PackedSpan span = packedSpan(place, record, path == 1u);
             value = vec4(packedVector(span), 0.0f);
-            if (path == 1u) value = packedTurn(span, fixedWord);
+            if (path == 1u) value = packedTurn(span, record.y);
             own.property += 1u;
         } else {
             SUPPLE_PRECISE vec3 v = packedConstant(place.sections, own.number);
@@ -242,7 +237,7 @@ vec4 packedWeights(uint head, vec2 time, uint quad, vec4 rest) {
         PackedPaths own = packedPaths(place.sections, push.nodeCount + three);
         SUPPLE_PRECISE vec3 values = vec3(0.0f);
         if (own.changing != 0u) {
-            values = packedVector(packedSpan(place, own.property, packedWord(place.sections.z, own.property), false));
+            values = packedVector(packedSpan(place, table(place.segment.x + own.property), false));
         } else if (own.constant != 0u) {
             values = packedConstant(place.sections, own.number);
         }
