@@ -148,17 +148,10 @@ PackedSpan packedSpan(PackedPlace place, uvec4 record, bool turns) {
     // The last two knots of an even number of knots have none in between.
     bool single = knots.middle == knots.last;
     SUPPLE_PRECISE vec3 low = lowNumbers(own, lows, turns);
-    SUPPLE_PRECISE vec3 first = vec3(0.0f), off = vec3(0.0f), last = vec3(0.0f);
-    // A loop, so that the code is there once.
-    for (uint k = 0u; k < 3u; ++k) {
-        uvec4 widths = outer;
-        if (k == 1u) widths = inner;
-        SUPPLE_PRECISE vec3 numbers = threeNumbers(a, b, at, widths);
-        if (k == 0u) first = low + numbers;
-        if (k == 1u) off = numbers - vec3(float((1u << inner.x) >> 1u), float((1u << inner.y) >> 1u), float((1u << inner.z) >> 1u));
-        if (k == 2u) last = low + numbers;
-        at += k == 0u ? outerBits : single ? 0u : innerBits;
-    }
+    SUPPLE_PRECISE vec3 first = low + threeNumbers(a, b, at, outer);
+    SUPPLE_PRECISE vec3 off = threeNumbers(a, b, at + outerBits, inner) -
+                              vec3(float((1u << inner.x) >> 1u), float((1u << inner.y) >> 1u), float((1u << inner.z) >> 1u));
+    SUPPLE_PRECISE vec3 last = low + threeNumbers(a, b, at + outerBits + (single ? 0u : innerBits), outer);
     SUPPLE_PRECISE vec3 middle = onLine(first, last, knots.middle - knots.first, knots.last - knots.first) + off;
     bool toLast = knots.second || single;
     uint begin = knots.second ? knots.middle : knots.first, end = toLast ? knots.last : knots.middle;
