@@ -226,8 +226,8 @@ private:
         const uint32_t first = putHead(words, words.size());
         const auto move = [&](size_t word) { table_.words[4 * size_t{first} + word] += first; };
         for (uint32_t segment = 0; segment < words[3]; ++segment) {
-            move(4 * size_t{words[7] + segment});
-            move(4 * size_t{words[7] + segment} + 1);
+            move(4 * size_t{words[6] + segment});
+            move(4 * size_t{words[6] + segment} + 1);
         }
         return first;
     }
@@ -235,7 +235,7 @@ private:
     uint32_t putHead(std::span<const uint32_t> words, size_t count) {
         const uint32_t first = next();
         table_.words.insert(table_.words.end(), words.begin(), words.begin() + static_cast<ptrdiff_t>(count));
-        for (size_t section = 4; section < 8; ++section) {
+        for (size_t section = 4; section < 7; ++section) {
             table_.words[4 * size_t{first} + section] += first;
         }
         return first;
@@ -248,7 +248,7 @@ private:
         table_.streamedClips.push_back({static_cast<uint32_t>(clip), twin, packed.words[1],
                                         static_cast<uint32_t>(table_.streamedSegments.size()), packed.words[3]});
         for (uint32_t s = 0; s < packed.words[3]; ++s) {
-            table_.streamedSegments.push_back({first + packed.words[7] + s});
+            table_.streamedSegments.push_back({first + packed.words[6] + s});
         }
         return first;
     }

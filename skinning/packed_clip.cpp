@@ -54,19 +54,14 @@ bool fits(const glm::ivec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kMostWhole;
 }
 
-/// Of a segment: a word for each property, then two.
-size_t recordElements(size_t animated) {
-    return (animated + 3) / 4 + (animated + 1) / 2;
-}
-
 /// Where the sections of a clip begin, in elements.
 struct Sections {
     Sections(size_t places, size_t constants, size_t animated, uint32_t last)
         : masks(kPackedHeadElements), groups((places + 15) / 16), constantsBegin(masks + groups),
-          statics(constantsBegin + (constants + 1) / 2), segments(statics + (animated + 3) / 4),
-          records(segments + segmentsOf(last)), data(records + recordElements(animated) * segmentsOf(last)) {}
+          segments(constantsBegin + (constants + 1) / 2), records(segments + segmentsOf(last)),
+          data(records + animated * segmentsOf(last)) {}
 
-    size_t masks, groups, constantsBegin, statics, segments, records, data;
+    size_t masks, groups, constantsBegin, segments, records, data;
 };
 
 /// Bits behind each other, from the lowest of a word up.
@@ -191,15 +186,15 @@ struct LowScale {
     [[nodiscard]] int number(size_t axis, int step) const {
         return (step + 16 * (static_cast<int>(base[axis]) - 16)) * (1 << shift[axis]);
     }
-    /// The finest one that has room for numbers from `least` to `most`.
-    static LowScale of(const glm::ivec3& least, const glm::ivec3& most, bool hasBase) {
+    /// The finest one that has room for a number.
+    static LowScale of(const glm::ivec3& low, bool hasBase) {
         LowScale scale;
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<size_t>(axis);
-            const auto fits = [&] { return scale.stepOf(a, least[axis]) >= -16 && scale.stepOf(a, most[axis]) < 16; };
+            const auto fits = [&] { return scale.stepOf(a, low[axis]) >= -16 && scale.stepOf(a, low[axis]) < 16; };
             for (uint32_t& shift = scale.shift[a]; shift <= kMostShift; ++shift) {
-                const int middle = ((least[axis] >> shift) + (most[axis] >> shift) + 1) >> 1;
-                scale.base[a] = hasBase ? static_cast<uint32_t>(std::clamp(((middle + 8) >> 4) + 16, 0, 31)) : 16u;
+                const int base = (((low[axis] >> shift) + 8) >> 4) + 16;
+                scale.base[a] = hasBase ? static_cast<uint32_t>(std::clamp(base, 0, 31)) : 16u;
                 if (fits()) {
                     break;
                 }
@@ -209,40 +204,41 @@ struct LowScale {
     }
 };
 
-/// All segments of a property that changes, and how it keeps them.
-struct PropertyKnots {
-    explicit PropertyKnots(const PackedProperty& property) {
-        const uint32_t last = property.frames.back();
-        for (uint32_t first = 0; first < last; first += kSegmentFrames) {
-            segments.push_back(knotsOf(property, first, std::min(first + kSegmentFrames, last)));
+/// A segment of a property that changes, as a record has it.
+struct SegmentRecord {
+    SegmentRecord(const PackedProperty& property, SegmentKnots own)
+        : knots(std::move(own)), scale(LowScale::of(knots.low, property.path != ChannelPath::rotation)) {
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<int>(axis);
+            steps[a] = scale.stepOf(axis, knots.low[a]);
+            low[a] = scale.number(axis, steps[a]);
         }
-        glm::ivec3 least = segments.front().low, most = least;
-        for (const SegmentKnots& own : segments) {
-            least = glm::min(least, own.low);
-            most = glm::max(most, own.low);
-        }
-        scale = LowScale::of(least, most, property.path != ChannelPath::rotation);
+        outer = knots.outerWidths(low);
+        inner = knots.innerWidths();
     }
-    [[nodiscard]] glm::ivec3 lowOf(const SegmentKnots& own) const {
-        glm::ivec3 low;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<size_t>(axis);
-            low[axis] = scale.number(a, scale.stepOf(a, own.low[axis]));
-        }
-        return low;
-    }
-    [[nodiscard]] bool fit() const {
-        return std::all_of(segments.begin(), segments.end(), [&](const SegmentKnots& own) {
-            const Widths outer = own.outerWidths(lowOf(own)), inner = own.innerWidths();
-            return *std::max_element(outer.begin(), outer.end()) <= kMostWidth &&
-                   *std::max_element(inner.begin(), inner.end()) <= kMostWidth &&
-                   2 * bitsOf(outer) + bitsOf(inner) <= kMostPairBits;
-        });
+    [[nodiscard]] bool fits() const {
+        return *std::max_element(outer.begin(), outer.end()) <= kMostWidth &&
+               *std::max_element(inner.begin(), inner.end()) <= kMostWidth &&
+               2 * bitsOf(outer) + bitsOf(inner) <= kMostPairBits;
     }
 
-    std::vector<SegmentKnots> segments;
+    SegmentKnots knots;
     LowScale scale;
+    glm::ivec3 steps{0}, low{0};
+    Widths outer{}, inner{};
 };
+std::vector<SegmentRecord> recordsOf(const PackedProperty& property) {
+    std::vector<SegmentRecord> records;
+    const uint32_t last = property.frames.back();
+    for (uint32_t first = 0; first < last; first += kSegmentFrames) {
+        records.emplace_back(property, knotsOf(property, first, std::min(first + kSegmentFrames, last)));
+    }
+    return records;
+}
+
+bool allFit(const std::vector<SegmentRecord>& records) {
+    return std::all_of(records.begin(), records.end(), [](const SegmentRecord& own) { return own.fits(); });
+}
 
 class ClipWriter {
 public:
@@ -260,7 +256,7 @@ public:
             return std::nullopt;
         }
         for (const PackedProperty* const property : animated_) {
-            knots_.emplace_back(*property);
+            records_.push_back(recordsOf(*property));
         }
         const SplitTime split = splitTime(rate);
         words_.assign(4 * sections_.data, 0u);
@@ -269,12 +265,11 @@ public:
         words_[1] = clip_.last;
         words_[2] = static_cast<uint32_t>(animated_.size()) | static_cast<uint32_t>(constants_.size()) << 16;
         words_[3] = segmentsOf(clip_.last);
-        const size_t sections[] = {sections_.masks, sections_.constantsBegin, sections_.statics, sections_.segments};
+        const size_t sections[] = {sections_.masks, sections_.constantsBegin, sections_.segments};
         std::transform(std::begin(sections), std::end(sections), words_.begin() + 4,
                        [](size_t at) { return static_cast<uint32_t>(at); });
         putMasks();
         putConstants();
-        putStatics();
         for (uint32_t segment = 0; segment < segmentsOf(clip_.last); ++segment) {
             if (!putSegment(segment)) {
                 return std::nullopt;
@@ -312,26 +307,15 @@ private:
         }
     }
 
-    void putStatics() {
-        for (size_t i = 0; i < animated_.size(); ++i) {
-            const PackedProperty& own = *animated_[i];
-            const LowScale& scale = knots_[i].scale;
-            const Widths& base = own.path == ChannelPath::rotation ? own.reference : scale.base;
-            words_[4 * sections_.statics + i] = base[0] | base[1] << 5 | base[2] << 10 | scale.shift[0] << 15 |
-                                                scale.shift[1] << 19 | scale.shift[2] << 23 |
-                                                static_cast<uint32_t>(own.exponent - kLeastExponent) << 27;
-        }
-    }
-
     bool putSegment(uint32_t segment) {
-        const size_t record = sections_.records + segment * recordElements(animated_.size());
+        const size_t record = sections_.records + segment * animated_.size();
         const auto data = static_cast<uint32_t>(words_.size() / 4);
         BitWriter numbers;
         for (size_t i = 0; i < animated_.size(); ++i) {
             if (numbers.length() >= kMostDataBits) {
                 return false;
             }
-            putRecord(knots_[i], segment, i, record, numbers);
+            putRecord(*animated_[i], records_[i][segment], record + i, numbers);
         }
         const uint32_t own[] = {static_cast<uint32_t>(record), data,
                                 std::min(kSegmentFrames, clip_.last - segment * kSegmentFrames), 0u};
@@ -341,22 +325,20 @@ private:
         return words_.size() < UINT32_MAX;
     }
 
-    void putRecord(const PropertyKnots& property, uint32_t segment, size_t i, size_t element, BitWriter& data) {
-        const SegmentKnots& own = property.segments[segment];
-        const glm::ivec3 low = property.lowOf(own);
-        const Widths outer = own.outerWidths(low), inner = own.innerWidths();
+    void putRecord(const PackedProperty& property, const SegmentRecord& record, size_t element, BitWriter& data) {
+        const SegmentKnots& own = record.knots;
+        const Widths& base = property.path == ChannelPath::rotation ? property.reference : record.scale.base;
         const auto offset = static_cast<uint32_t>(data.length());
-        uint32_t sizes = offset << 30, lows = offset >> 2 << 15;
-        for (uint32_t axis = 0; axis < 3; ++axis) {
-            sizes |= outer[axis] << 5 * axis | inner[axis] << (15 + 5 * axis);
-            lows |= (static_cast<uint32_t>(property.scale.stepOf(axis, own.low[static_cast<int>(axis)])) & 31u)
-                    << 5 * axis;
-        }
         uint32_t* const words = &words_[4 * element];
-        uint32_t* const two = words + 4 * ((animated_.size() + 3) / 4) + 2 * i;
-        words[i] = own.mask();
-        two[0] = sizes;
-        two[1] = lows;
+        words[0] = own.mask();
+        words[1] = static_cast<uint32_t>(property.exponent - kLeastExponent) << 27;
+        words[2] = offset << 30;
+        words[3] = offset >> 2 << 15;
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            words[1] |= base[axis] << 5 * axis | record.scale.shift[axis] << (15 + 4 * axis);
+            words[2] |= record.outer[axis] << 5 * axis | record.inner[axis] << (15 + 5 * axis);
+            words[3] |= (static_cast<uint32_t>(record.steps[static_cast<int>(axis)]) & 31u) << 5 * axis;
+        }
         const auto put = [&](const glm::ivec3& numbers, const Widths& widths) {
             for (uint32_t axis = 0; axis < 3; ++axis) {
                 data.put(static_cast<uint32_t>(numbers[static_cast<int>(axis)]), widths[axis]);
@@ -365,16 +347,16 @@ private:
         auto off = own.offs.begin();
         for (size_t k = 0; k < own.values.size(); ++k) {
             if (isOuter(k, own.last())) {
-                put(own.values[k] - low, outer);
+                put(own.values[k] - record.low, record.outer);
             } else {
-                put(*off++ + halvesOf(inner), inner);
+                put(*off++ + halvesOf(record.inner), record.inner);
             }
         }
     }
 
     const PackedClip& clip_;
     std::vector<const PackedProperty*> animated_, constants_;
-    std::vector<PropertyKnots> knots_; ///< of those that are animated
+    std::vector<std::vector<SegmentRecord>> records_; ///< of those that are animated, by segment
     Sections sections_{0, 0, 0, 1};
     std::vector<uint32_t> words_;
 };
@@ -418,8 +400,8 @@ private:
         const SplitTime split = splitTime(rate);
         const bool sound = words_[0] == bits(split.high) && words_[9] == bits(split.low) &&
                            words_[3] == segmentsOf(clip_.last) && words_[4] == sections_.masks &&
-                           words_[5] == sections_.constantsBegin && words_[6] == sections_.statics &&
-                           words_[7] == sections_.segments && words_[8] == 0 && words_[10] == 0 && words_[11] == 0;
+                           words_[5] == sections_.constantsBegin && words_[6] == sections_.segments && words_[7] == 0 &&
+                           words_[8] == 0 && words_[10] == 0 && words_[11] == 0;
         if (!sound || words_.size() / 4 < sections_.data + kPackedPadding) {
             return refuse("a packed clip whose sections are elsewhere");
         }
@@ -461,20 +443,13 @@ private:
     }
 
     void readConstants() {
-        size_t constant = 0, animated = 0;
+        size_t constant = 0;
         for (PackedProperty& own : clip_.properties) {
             if (own.isConstant) {
                 const uint32_t* const two = &words_[4 * sections_.constantsBegin + 2 * constant++];
                 own.exponent = kMostConstantExponent - 2 * static_cast<int>(two[1] >> 28);
                 own.values = {
                     {signExtended(two[0]), signExtended(two[0] >> 20 | two[1] << 12), signExtended(two[1] >> 8)}};
-            } else {
-                const uint32_t w = words_[4 * sections_.statics + animated++];
-                own.exponent = static_cast<int>(w >> 27) + kLeastExponent;
-                const Widths base{w & 31u, w >> 5 & 31u, w >> 10 & 31u};
-                LowScale& scale = scales_.emplace_back();
-                scale.shift = {w >> 15 & 15u, w >> 19 & 15u, w >> 23 & 15u};
-                (own.path == ChannelPath::rotation ? own.reference : scale.base) = base;
             }
         }
     }
@@ -490,15 +465,14 @@ private:
         for (uint32_t segment = 0; segment < segmentsOf(clip_.last); ++segment) {
             const size_t element = sections_.segments + segment;
             const uint32_t first = segment * kSegmentFrames, frames = std::min(kSegmentFrames, clip_.last - first);
-            const size_t record = sections_.records + segment * recordElements(changing.size());
+            const size_t record = sections_.records + segment * changing.size();
             if (word(element, 0) != record || word(element, 1) != begin || word(element, 2) != frames ||
                 word(element, 3) != 0) {
                 return refuse("a segment of a packed clip that is elsewhere");
             }
             size_t length = 0;
             for (size_t i = 0; i < changing.size(); ++i) {
-                if (!readRecord(*changing[i], recordAt(record, changing.size(), i), {first, first + frames}, begin,
-                                length)) {
+                if (!readRecord(*changing[i], record + i, {first, first + frames}, begin, length)) {
                     return false;
                 }
             }
@@ -510,24 +484,38 @@ private:
 
     struct Record {
         uint32_t mask = 0, offset = 0;
-        Widths outer{}, inner{};
+        int exponent = 0;
+        Widths reference{}, outer{}, inner{};
         glm::ivec3 low{0};
     };
-    [[nodiscard]] Record recordAt(size_t element, size_t count, size_t i) const {
+    [[nodiscard]] Record recordAt(size_t element, bool isRotation) const {
         const uint32_t* const words = &words_[4 * element];
-        const uint32_t* const two = words + 4 * ((count + 3) / 4) + 2 * i;
-        Record record{words[i], two[0] >> 30 | two[1] >> 15 << 2, {}, {}, {}};
+        Record record;
+        record.mask = words[0];
+        record.offset = words[2] >> 30 | words[3] >> 15 << 2;
+        record.exponent = static_cast<int>(words[1] >> 27) + kLeastExponent;
+        LowScale scale;
         for (uint32_t axis = 0; axis < 3; ++axis) {
-            record.outer[axis] = two[0] >> 5 * axis & 31u;
-            record.inner[axis] = two[0] >> (15 + 5 * axis) & 31u;
-            const int step = static_cast<int>((two[1] >> 5 * axis & 31u) ^ 16u) - 16;
-            record.low[static_cast<int>(axis)] = scales_[i].number(axis, step);
+            record.reference[axis] = isRotation ? words[1] >> 5 * axis & 31u : 15u;
+            scale.base[axis] = isRotation ? 16u : words[1] >> 5 * axis & 31u;
+            scale.shift[axis] = words[1] >> (15 + 4 * axis) & 15u;
+            record.outer[axis] = words[2] >> 5 * axis & 31u;
+            record.inner[axis] = words[2] >> (15 + 5 * axis) & 31u;
+            const int step = static_cast<int>((words[3] >> 5 * axis & 31u) ^ 16u) - 16;
+            record.low[static_cast<int>(axis)] = scale.number(axis, step);
         }
         return record;
     }
     /// `segment`: its first frame and its last one. `length`: bits of its data so far.
-    bool readRecord(PackedProperty& own, const Record& record, std::pair<uint32_t, uint32_t> segment, size_t begin,
+    bool readRecord(PackedProperty& own, size_t element, std::pair<uint32_t, uint32_t> segment, size_t begin,
                     size_t& length) {
+        const Record record = recordAt(element, own.path == ChannelPath::rotation);
+        if (own.frames.empty()) {
+            own.exponent = record.exponent;
+            own.reference = record.reference;
+        } else if (own.exponent != record.exponent || own.reference != record.reference) {
+            return refuse("a packed clip whose segments have other steps");
+        }
         const uint32_t frames = segment.second - segment.first;
         const uint32_t outer = bitsOf(record.outer), inner = bitsOf(record.inner);
         const bool sound = (record.mask & 1u) != 0 && (frames == 32 || record.mask >> frames == 0) &&
@@ -587,7 +575,6 @@ private:
     std::span<const uint32_t> words_;
     PackedPlaces places_;
     Sections sections_{0, 0, 0, 1};
-    std::vector<LowScale> scales_; ///< of properties that change
     PackedClip clip_;
     const char* fault_ = "";
 };
@@ -616,7 +603,7 @@ std::array<uint32_t, 3> referenceNear(const glm::dquat& rotation) {
 
 bool fitsLayout(const PackedProperty& property) {
     return std::all_of(property.values.begin(), property.values.end(), fits) &&
-           (property.isConstant || PropertyKnots(property).fit());
+           (property.isConstant || allFit(recordsOf(property)));
 }
 
 void removeEqualKnots(PackedProperty& property) {
@@ -662,13 +649,12 @@ Result<PackedClip> readPackedWords(std::span<const uint32_t> words, double durat
 
 std::vector<SegmentPlaces> segmentsIn(std::span<const uint32_t> words) {
     const uint32_t animated = words[2] & 0xFFFFu, count = words[3];
-    const std::span<const uint32_t> elements = words.subspan(4 * size_t{words[7]});
+    const std::span<const uint32_t> elements = words.subspan(4 * size_t{words[6]});
     const auto end = static_cast<uint32_t>(words.size() / 4) - kPackedPadding;
     std::vector<SegmentPlaces> places(count);
     for (uint32_t s = 0; s < count; ++s) {
         const uint32_t records = elements[4 * size_t{s}], data = elements[4 * size_t{s} + 1];
-        places[s] = {records, records + static_cast<uint32_t>(recordElements(animated)), data,
-                     s + 1 < count ? elements[4 * size_t{s} + 5] : end};
+        places[s] = {records, records + animated, data, s + 1 < count ? elements[4 * size_t{s} + 5] : end};
     }
     return places;
 }

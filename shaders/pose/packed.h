@@ -66,20 +66,17 @@ struct PackedPlace {
     PackedTime at;
     uvec4 sections; // those of the clip or, while its segment is missing, of its twin
     uvec4 segment;
-    uint changing; // properties that change
 };
 PackedPlace packedPlace(uint head, vec2 time) {
     PackedPlace place;
     uvec4 own = table(head);
     place.at = packedTime(own, tableFloats(head + 2u).y, time);
     place.sections = table(head + 1u);
-    place.segment = table(place.sections.w + place.at.segment);
-    place.changing = own.z & 0xFFFFu;
+    place.segment = table(place.sections.z + place.at.segment);
     // The twin has the same frames. A loop, so that lavapipe can leave it out.
     for (uint twin = place.segment.w; twin != 0u; twin = 0u) {
         place.sections = table(twin + 1u);
-        place.segment = table(place.sections.w + place.at.segment);
-        place.changing = table(twin).z & 0xFFFFu;
+        place.segment = table(place.sections.z + place.at.segment);
     }
     return place;
 }
@@ -140,11 +137,9 @@ vec3 lowNumbers(uint own, uint lows, bool turns) {
                      powerOfHalf(-int((own >> 23u) & 15u)));
     return low;
 }
-PackedSpan packedSpan(PackedPlace place, uint property, uint own, bool turns) {
-    PackedKnots knots = packedKnots(packedWord(place.segment.x, property), place.at.frame, place.segment.z);
-    uvec4 records = table(place.segment.x + (place.changing + 3u) / 4u + property / 2u);
-    bool odd = (property & 1u) != 0u;
-    uint sizes = odd ? records.z : records.x, lows = odd ? records.w : records.y;
+PackedSpan packedSpan(PackedPlace place, uvec4 record, bool turns) {
+    PackedKnots knots = packedKnots(record.x, place.at.frame, place.segment.z);
+    uint own = record.y, sizes = record.z, lows = record.w;
     uvec4 outer = (uvec4(sizes) >> uvec4(0u, 5u, 10u, 0u)) & 31u, inner = (uvec4(sizes) >> uvec4(15u, 20u, 25u, 0u)) & 31u;
     uint outerBits = outer.x + outer.y + outer.z, innerBits = inner.x + inner.y + inner.z;
     uint at = (sizes >> 30u | (lows >> 15u) << 2u) + knots.pair * (outerBits + innerBits), element = place.segment.y + at / 128u;
@@ -153,17 +148,10 @@ PackedSpan packedSpan(PackedPlace place, uint property, uint own, bool turns) {
     // The last two knots of an even number of knots have none in between.
     bool single = knots.middle == knots.last;
     SUPPLE_PRECISE vec3 low = lowNumbers(own, lows, turns);
-    SUPPLE_PRECISE vec3 first = vec3(0.0f), off = vec3(0.0f), last = vec3(0.0f);
-    // A loop, so that the code is there once.
-    for (uint k = 0u; k < 3u; ++k) {
-        uvec4 widths = outer;
-        if (k == 1u) widths = inner;
-        SUPPLE_PRECISE vec3 numbers = threeNumbers(a, b, at, widths);
-        if (k == 0u) first = low + numbers;
-        if (k == 1u) off = numbers - vec3(float((1u << inner.x) >> 1u), float((1u << inner.y) >> 1u), float((1u << inner.z) >> 1u));
-        if (k == 2u) last = low + numbers;
-        at += k == 0u ? outerBits : single ? 0u : innerBits;
-    }
+    SUPPLE_PRECISE vec3 first = low + threeNumbers(a, b, at, outer);
+    SUPPLE_PRECISE vec3 off = threeNumbers(a, b, at + outerBits, inner) -
+                              vec3(float((1u << inner.x) >> 1u), float((1u << inner.y) >> 1u), float((1u << inner.z) >> 1u));
+    SUPPLE_PRECISE vec3 last = low + threeNumbers(a, b, at + outerBits + (single ? 0u : innerBits), outer);
     SUPPLE_PRECISE vec3 middle = onLine(first, last, knots.middle - knots.first, knots.last - knots.first) + off;
     bool toLast = knots.second || single;
     uint begin = knots.second ? knots.middle : knots.first, end = toLast ? knots.last : knots.middle;
@@ -207,10 +195,10 @@ Transform packedTransform(uint head, vec2 time, uint node, Transform rest) {
         uint path = uint(findLSB(paths));
         SUPPLE_PRECISE vec4 value = vec4(0.0f);
         if (((own.changing >> path) & 1u) != 0u) {
-            uint fixedWord = packedWord(place.sections.z, own.property);
-            PackedSpan span = packedSpan(place, own.property, fixedWord, path == 1u);
+            uvec4 record = table(place.segment.x + own.property);
+            PackedSpan span = packedSpan(place, record, path == 1u);
             value = vec4(packedVector(span), 0.0f);
-            if (path == 1u) value = packedTurn(span, fixedWord);
+            if (path == 1u) value = packedTurn(span, record.y);
             own.property += 1u;
         } else {
             SUPPLE_PRECISE vec3 v = packedConstant(place.sections, own.number);
@@ -242,7 +230,7 @@ vec4 packedWeights(uint head, vec2 time, uint quad, vec4 rest) {
         PackedPaths own = packedPaths(place.sections, push.nodeCount + three);
         SUPPLE_PRECISE vec3 values = vec3(0.0f);
         if (own.changing != 0u) {
-            values = packedVector(packedSpan(place, own.property, packedWord(place.sections.z, own.property), false));
+            values = packedVector(packedSpan(place, table(place.segment.x + own.property), false));
         } else if (own.constant != 0u) {
             values = packedConstant(place.sections, own.number);
         }

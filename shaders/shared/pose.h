@@ -15,7 +15,7 @@
 //   clip node  one element a node: channels of its translation, rotation and scale, or 0
 //   clip target  one element a morph target: (channel or 0, place in a value, numbers of a value, 0)
 //   packed clip  kPackedHeadElements: (frames a second as a float, number of the last frame, properties that change +
-//              65536 * constants, segments); (first element of its masks, constants, statics, segments); (first of its nodes'
+//              65536 * constants, segments); (first element of its masks, constants, segments, 0); (first of its nodes'
 //              elements, for channels that are not packed, or 0; what the frames a second are more than that float, 0, 0). A property is the translation, rotation or scale of
 //              a node; properties are counted by node, then in this order. Behind the last node, three morph weights count as the
 //              translation of a node
@@ -23,16 +23,14 @@
 //              scales), constants (high half of the second: scales; translations + 65536 * rotations); properties before these
 //              nodes (those that change + 65536 * constants)
 //   constants  two words each: three numbers of 20 bits with a sign, and in the last 4 bits (27 - their exponent) / 2
-//   statics    a word for every property that changes: 3 times 5 bits, its reference if it is a rotation, else its base; 3 shifts
-//              of 4 bits; its exponent + 8
 //   segment    (first record, first element of its data, frames, 0). While a segment of a clip with a coarse twin is
 //              missing, the last is the first element of the twin: a packed clip of the same frames, whose nodes' elements
 //              are not read; the first two then mean nothing
-//   records    of a segment: a word for every property that changes, the frames that are knots, a bit each; from the next element
-//              on two words each. First, of x, y and z: the bits of an outer knot's number, 5 each, those of an inner one's, 5 each;
-//              then of x, y and z, 5 bits each with a sign: the lowest of the outer knots' numbers, as (these + 16 (base - 16)) *
-//              2^shift, of rotations without the base. In the 2 high bits of the first and 17 of the second, from low to high: where the
-//              first knot begins in the data, in bits
+//   record     of a property in a segment: (frames that are knots, a bit each; 3 times 5 bits, its reference if it is a rotation, else
+//              its base, 3 shifts of 4 bits, its exponent + 8; of x, y and z, the bits of an outer knot's number, 5 each, those of an
+//              inner one's, 5 each; of x, y and z, 5 bits each with a sign, the lowest of the outer knots' numbers, as (these + 16 (base -
+//              16)) * 2^shift, of rotations without the base). In the 2 high bits of the third and 17 of the last, from low to high:
+//              where the first knot begins in the data, in bits
 //   data       knot after knot x, y and z, and the knot at the segment's end last. Every second knot, from the first on, and the last
 //              one are outer ones, from the lowest number on. Those between two of them are inner ones: what they are off the line
 //              (shaders/pose/knots.h), from -2^(bits - 1) on. An inner knot and its neighbors have at most 129 bits

@@ -33,7 +33,7 @@ typedef struct SupplePrepareDesc {
     SuppleLogFunction log; /**< optional: errors, and warnings about the file */
     void* logUser;
     /** How far packing may move a vertex from where a clip has it, as a part of the extent, 0..0.1: 1e-4 suits most
-     * games (docs/playback.md). Clips then take a fifth to an eighth of the memory on the device. 0: they stay as they
+     * games (docs/playback.md). Clips then take a fifth to a ninth of the memory on the device. 0: they stay as they
      * are. Clips that are packed already stay, too. Packing takes a while: let cooked files keep it. */
     float clipError;
     /** How far a clip's coarse twin may be from the clip, in the same unit, 0..0.1: 1e-2 suits clips that are streamed
