@@ -248,8 +248,7 @@ private:
         const auto number = static_cast<size_t>(&primitive - out_.primitives.data());
         const int cageNumbers = cageNumbers_[number];
         const std::optional<CageExtension>& extension = extensions_[number];
-        const Stream stream{position->second, cageNumbers, sets.joints,
-                            sets.weights,     targets,     soft_.accessorsOf(from)};
+        const Stream stream{position->second, cageNumbers, sets.joints, sets.weights, targets, soft_.accessorsOf(from)};
         const auto known = streams_.find(stream);
         primitive.firstVertex = known != streams_.end() ? known->second : static_cast<uint32_t>(out_.positions.size());
         const size_t count = accessorCount(document_, position->second);

@@ -83,7 +83,7 @@ struct Mesh {
     std::vector<Cloth> cloths; ///< with colliders by the numbers of the file
     // Per vertex; or empty: none is painted.
     std::vector<PaintedWeight> jiggleWeights, clothWeights;
-    std::vector<uint32_t> cageNumbers;       ///< per vertex, where the source numbers cage vertices; else empty
+    std::vector<uint32_t> cageNumbers; ///< per vertex, where the source numbers cage vertices; else empty
     WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers
     /// Vertices that are one, where the source lists these pairs and no cage numbers (WeldSource::meshManifold).
     std::optional<std::vector<std::pair<uint32_t, uint32_t>>> merges;

@@ -119,7 +119,6 @@ void predict(ClothTables all, ClothStep now, uint vertex, uint substep) {
         SUPPLE_PRECISE vec3 next = (speed + now.down * all.gravity) * all.kept;
         next = next - (next + vec3(clothState(at + 3u))) * all.lostToAir;
         place = old + shortened(next * all.seconds, all.farthest);
-        keepClothState(at + 1u, vec4(next, clothState(at + 1u).w));
     } else if (substep + 1u < all.substeps) {
         place = old + (speed - old) * recip(float(all.substeps - substep));
     }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Hangs a cape (docs/cloth.md) on a figure: cape.py IN.glb OUT.glb [--top Y] [--back Z] [--width W] [--length L] [--round R] [--without]
+"""Hangs a cape (docs/cloth.md) on a figure: cape.py IN.glb OUT.glb [--top Y] [--without] ..
 
 The figure has joints "hips" and "chest" and a skin. The cape is a sheet of quads behind it, whose first row hangs on the chest.
-Its colliders are a capsule from the hips to the chest and, if the figure has them, capsules along thighs and shins. --without
-leaves the cloth out: the cape is skinned as everything else.
+Its colliders are a capsule from the hips to the chest, a sphere round the hips and, if the figure has them, capsules along
+thighs and shins. --without leaves the cloth out: the cape is skinned as everything else. The other options are sizes.
 """
 import argparse
 import json
@@ -54,7 +54,7 @@ def sheet(size):
         for i in range(COLUMNS):
             s, t = i / (COLUMNS - 1) - 0.5, j / (ROWS - 1)
             wide = size.width * (1.0 + 0.25 * t)
-            points.append([wide * s, size.top - size.length * t, -size.back + size.round * (2.0 * s) ** 2 - 0.03 * t])
+            points.append([wide * s, size.top - size.length * t, -size.back + size.round * (2.0 * s) ** 2 - size.lean * t])
     return points
 
 
@@ -82,6 +82,8 @@ def capsules(nodes, size):
                 at = next(i for i, node in enumerate(nodes) if at in node.get("children", []))
             made.append({"node": names[first],
                          "shape": {"capsule": {"offset": [0, 0, 0], "tail": way, "radius": radius}}})
+    if "hips" in names:
+        made.append({"node": names["hips"], "shape": {"sphere": {"offset": [0, -0.06, 0], "radius": size.seat}}})
     return made
 
 
@@ -89,7 +91,7 @@ def main():
     options = argparse.ArgumentParser()
     options.add_argument("source")
     options.add_argument("out")
-    for name, usual in (("top", 1.27), ("back", 0.135), ("width", 0.30), ("length", 0.86), ("round", 0.045), ("body", 0.115)):
+    for name, usual in (("top", 1.27), ("back", 0.135), ("width", 0.30), ("length", 0.86), ("round", 0.045), ("body", 0.125), ("seat", 0.17), ("lean", 0.09)):
         options.add_argument("--" + name, type=float, default=usual)
     options.add_argument("--without", action="store_true")
     size = options.parse_args()

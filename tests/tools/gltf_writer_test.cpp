@@ -327,7 +327,7 @@ TEST(GltfWriter, ClothsComeBack) {
     Character character = *caped;
     ASSERT_EQ(character.cloths.size(), 1u);
     Cloth& own = character.cloths[0];
-    EXPECT_EQ(own.colliders, std::vector<uint32_t>{0});
+    EXPECT_EQ(own.colliders, (std::vector<uint32_t>{0, 1}));
     EXPECT_EQ(own.hitRadius, 0.015f);
     own = {1e-6f, 2e-6f, 5e-3f, true, 1.25f, 0.25f, 0.5f, 4.5f, 0.03125f, 3, {1, 0}};
     SpringCollider plane;
@@ -341,8 +341,8 @@ TEST(GltfWriter, ClothsComeBack) {
     ASSERT_TRUE(again.ok()) << again.error().message;
     EXPECT_EQ(again->cloths, character.cloths);
     EXPECT_EQ(again->weights.cloths, character.weights.cloths);
-    ASSERT_EQ(again->springBones.colliders.size(), 2u);
-    for (size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(again->springBones.colliders.size(), 3u);
+    for (size_t i = 0; i < 3; ++i) {
         const SpringCollider &is = again->springBones.colliders[i], &was = character.springBones.colliders[i];
         EXPECT_EQ(is.node, was.node);
         EXPECT_EQ(is.shape, was.shape);

@@ -5,11 +5,11 @@
 #include "cage/parts.h"
 #include "cage/refusal.h"
 #include "tools/gltf/driver_writer.h"
-#include "tools/gltf/soft_writer.h"
 #include "tools/gltf/material_writer.h"
 #include "tools/gltf/mesh_writer.h"
 #include "tools/gltf/packer.h"
 #include "tools/gltf/part_weights.h"
+#include "tools/gltf/soft_writer.h"
 #include "tools/gltf/still_mesh_writer.h"
 
 #include <algorithm>

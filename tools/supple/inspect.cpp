@@ -13,9 +13,9 @@
 #include "tools/supple/compare.h"
 #include "tools/supple/folds.h"
 #include "tools/supple/inspect_drivers.h"
-#include "tools/supple/inspect_soft.h"
 #include "tools/supple/inspect_materials.h"
 #include "tools/supple/inspect_parts.h"
+#include "tools/supple/inspect_soft.h"
 #include "tools/supple/memory_report.h"
 #include "tools/supple/options.h"
 

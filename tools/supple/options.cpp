@@ -348,7 +348,8 @@ void bindSimulate(CLI::App& command, double& seconds) {
     const HelpGroup heading(command, "Pose");
     command
         .add_option("--simulate", seconds,
-                    "Joints swing by the springs of the file, and vertices jiggle: the clip has played, in a loop, for "
+                    "Joints swing by the springs of the file, vertices jiggle, cloth hangs: the clip has played, in a "
+                    "loop, for "
                     "so long before")
         ->check(CLI::Range(0.001, 3600.0))
         ->type_name("SECONDS");
