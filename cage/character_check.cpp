@@ -5,6 +5,7 @@
 #include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/skeleton.h"
+#include "cage/smoothing.h"
 #include "cage/solved_driver.h"
 #include "cage/trim.h"
 
@@ -68,6 +69,7 @@ public:
     void skeleton();
     void skin();
     void jiggles();
+    void mush();
     void morphs();
     void expressions();
     void drivers();
@@ -231,6 +233,16 @@ void Check::jiggles() {
                                    (own.jiggle < character_.jiggles.size() && own.weight > 0.0f && own.weight <= 1.0f);
                         }),
             "a vertex names no jiggle, or has no weight above 0 to 1");
+}
+
+void Check::mush() {
+    for (const Part& part : character_.parts) {
+        require(!part.smoothing || isSound(*part.smoothing), "a smoothing's numbers are out of range");
+    }
+    const std::vector<float>& mask = character_.weights.mushMask;
+    require(mask.empty() || mask.size() == character_.cage.vertexCount(), "not one mask of delta mush a vertex");
+    require(std::all_of(mask.begin(), mask.end(), [](float own) { return own >= 0.0f && own <= 1.0f; }),
+            "a mask of delta mush is not from 0 to 1");
 }
 
 void Check::morphs() {
@@ -398,6 +410,7 @@ Status checkCharacter(const Character& character) {
         check.parts();
         check.skin();
         check.jiggles();
+        check.mush();
         check.morphs();
         check.expressions();
         check.drivers();

@@ -140,6 +140,11 @@ void appendJiggles(const PartCage& from, uint32_t firstVertex, Character& charac
     appendTo(character.jiggles, from.jiggles);
 }
 
+/// Where one part has a mask, the others are smoothed wholly.
+void appendMushMask(const PartCage& from, uint32_t firstVertex, SkinWeights& weights) {
+    appendPadded(weights.mushMask, firstVertex, from.weights.mushMask, from.cage.vertexCount(), 1.0f);
+}
+
 /// The clips' channels of the weights of each part's targets.
 using WeightChannels = std::vector<std::vector<const Channel*>>;
 
@@ -407,6 +412,11 @@ Character takePart(const Character& character, size_t index) {
         taken.weights.starts.push_back(static_cast<uint32_t>(taken.weights.influences.size()));
     }
     takeJiggles(character, piece.vertices, taken);
+    for (const uint32_t v : piece.vertices) {
+        if (!character.weights.mushMask.empty()) {
+            taken.weights.mushMask.push_back(character.weights.mushMask[v]);
+        }
+    }
     std::vector<uint32_t> places(character.cage.vertexCount(), kNone);
     for (uint32_t v = 0; v < piece.vertices.size(); ++v) {
         places[piece.vertices[v]] = v;
@@ -454,6 +464,7 @@ CageNames joinParts(std::vector<PartCage> parts, Character& character) {
         appendCage(part.cage, character.sourceVertexCount, character.cage);
         appendWeights(part, character.weights);
         appendJiggles(part, firstVertex, character);
+        appendMushMask(part, firstVertex, character.weights);
         character.sourceVertexCount += part.sourceVertexCount;
         character.seamVertexCount += part.seamVertexCount;
         character.parts.push_back(std::move(part.part));

@@ -250,6 +250,9 @@ void mergeVertices(std::span<const uint32_t> roots, Character& character) {
         if (!character.weights.jiggles.empty()) {
             weights.jiggles.push_back(character.weights.jiggles[v]);
         }
+        if (!character.weights.mushMask.empty()) {
+            weights.mushMask.push_back(character.weights.mushMask[v]);
+        }
     }
     cage.positions.resize(kept);
     cage.sourceVertices.resize(kept);

@@ -4,6 +4,7 @@
 #include "shaders/shared/deform.h"
 #include "shaders/shared/specialization.h"
 #include "shaders/soft_jiggle_comp.h"
+#include "shaders/soft_jiggle_comp_MUSH.h"
 
 namespace supple::skinning {
 
@@ -35,7 +36,8 @@ Result<JiggleKernels> JiggleKernels::create(const gpu::Device& device, gpu::Pipe
 Result<gpu::Kernel> JiggleKernels::make(SkinningMode mode, bool morphs) const {
     const gpu::Constant constants[] = {{kMorphsConstant, uint32_t{morphs}},
                                        {kSkinningConstant, static_cast<uint32_t>(mode)}};
-    return pipelines_->get(layout_, soft_jiggle_comp, constants, "supple jiggle");
+    const gpu::Spirv& code = isMush(mode) ? soft_jiggle_comp_MUSH : soft_jiggle_comp;
+    return pipelines_->get(layout_, code, constants, "supple jiggle");
 }
 
 Status JiggleKernels::prepare(SkinningMode mode, bool morphs) {

@@ -2,16 +2,37 @@
 #pragma once
 
 #include "cage/character.h"
-#include "cage/gltf/json.h"
-#include "cage/message.h"
+#include "cage/gltf/document.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace supple::cage::gltf {
 
-/// `skinning`, if the mesh says it. Warns of ways of skinning that there are not here. Throws Refusal.
-[[nodiscard]] std::optional<SkinningMode> readSkinningMode(const Json& mesh, const std::string& element,
-                                                           Warnings& warnings);
+/// `skinning`, if the mesh says it. Throws Refusal.
+[[nodiscard]] std::optional<SkinningMode> readSkinningMode(const Json& mesh, const std::string& element);
+
+/// `smoothing` of delta mush, if the mesh says it.
+struct SmoothingFields {
+    std::optional<Smoothing> numbers;
+    std::string mask; ///< the attribute that has it; empty: there is none
+};
+/// Leaves out what is wrong, with a warning.
+[[nodiscard]] SmoothingFields readSmoothing(const Document& document, size_t meshIndex);
+
+/// Weights from 0 to 1, one a vertex, of an attribute that `name` calls. Throws Refusal.
+[[nodiscard]] std::vector<float> readPainted(const Document& document, int accessor, size_t count,
+                                             const std::string& name);
+/// The name of an attribute of weights that are painted, which must begin with _. Throws Refusal.
+[[nodiscard]] std::string paintedName(const Json& from, const char* key, const std::string& element);
+
+/// The accessor of a primitive that has an attribute, or -1.
+[[nodiscard]] int paintedAccessor(const file::Primitive& primitive, const std::string& name);
+
+/// Appends the mask of a primitive's `count` vertices, which begin at `firstVertex`: 1 where it has none. Weights that
+/// cannot be read are left out, with a warning.
+void appendMushMask(const Document& document, int accessor, size_t firstVertex, size_t count, const std::string& name,
+                    std::vector<float>& mask);
 
 } // namespace supple::cage::gltf

@@ -1,6 +1,7 @@
 #include "cage/gltf/jiggles.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/deformers.h"
 #include "cage/jiggle.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
@@ -18,31 +19,15 @@ PaintedJiggle readJiggle(const Json& from, const std::string& place) {
     }
     PaintedJiggle read;
     read.place = place;
-    read.weights = stringMember(from, "weights", place);
+    read.weights = paintedName(from, "weights", place);
     if (read.weights.empty()) {
         refuse(place, "weights is missing");
-    }
-    if (read.weights.front() != '_') {
-        refuse(place + " weights",
-               cage::quoted(read.weights) + " is no name of an application's attribute: it has no _");
     }
     Jiggle& own = read.jiggle;
     own.frequency = numberMember(from, "frequency", own.frequency, kMinJiggleFrequency, kMaxJiggleFrequency, place);
     own.damping = numberMember(from, "damping", own.damping, 0.0f, kMaxJiggleDamping, place);
     own.limit = numberMember(from, "limit", own.limit, kMinJiggleLimit, kMaxCoordinate, place);
     return read;
-}
-
-std::vector<float> readWeights(const Document& document, int accessor, size_t count, const std::string& name) {
-    checkVertexCount(document, accessor, count, name);
-    std::vector<float> weights =
-        readFloats(document, accessor, file::kScalar, kFloat | kNormalizedU8 | kNormalizedU16, name);
-    for (size_t v = 0; v < weights.size(); ++v) {
-        if (!(weights[v] >= 0.0f && weights[v] <= 1.0f)) {
-            refuse(item(name, v), "not from 0 to 1");
-        }
-    }
-    return weights;
 }
 
 } // namespace
@@ -79,8 +64,7 @@ std::vector<PaintedJiggle> readJiggles(const Document& document, size_t meshInde
 std::vector<int> jiggleAccessors(const file::Primitive& primitive, std::span<const PaintedJiggle> jiggles) {
     std::vector<int> accessors;
     for (const PaintedJiggle& jiggle : jiggles) {
-        const auto found = primitive.attributes.find(jiggle.weights);
-        accessors.push_back(found != primitive.attributes.end() ? found->second : -1);
+        accessors.push_back(paintedAccessor(primitive, jiggle.weights));
     }
     return accessors;
 }
@@ -95,7 +79,7 @@ void appendJiggleWeights(const Document& document, std::span<const int> accessor
         std::vector<float> own;
         if (accessors[j] < 0 || !document.leniency->leaveOut([&] {
                 document.memory->take(count, sizeof(float) + sizeof(JiggleWeight), element);
-                own = readWeights(document, accessors[j], count, element + " " + jiggles[j].weights);
+                own = readPainted(document, accessors[j], count, element + " " + jiggles[j].weights);
             })) {
             continue;
         }

@@ -112,6 +112,9 @@ private:
             if (!weights_.jiggles.empty()) {
                 mapped.jiggles.push_back(weights_.jiggles[source]);
             }
+            if (!weights_.mushMask.empty()) {
+                mapped.mushMask.push_back(weights_.mushMask[source]);
+            }
         }
         weights_ = std::move(mapped);
     }

@@ -311,6 +311,9 @@ void fillMotion(const Mesh& mesh, PartCage& out) {
         if (!mesh.jiggleWeights.empty()) {
             out.weights.jiggles.push_back(mesh.jiggleWeights[out.cage.sourceVertices[i]]);
         }
+        if (!mesh.mushMask.empty()) {
+            out.weights.mushMask.push_back(mesh.mushMask[out.cage.sourceVertices[i]]);
+        }
     }
     out.jiggles = mesh.jiggles;
 }
@@ -417,6 +420,7 @@ void buildCage(const Mesh& mesh, Pairing pairing, PartCage& out, Leniency& lenie
     out.part.polygonSource = faces.source;
     out.part.weldSource = welded.source;
     out.part.skinning = mesh.skinning;
+    out.part.smoothing = mesh.smoothing;
     for (const Primitive& primitive : mesh.primitives) { // the first that says anything
         out.part.uvMode = out.part.uvMode ? out.part.uvMode : primitive.uvMode;
         out.part.madeFor = out.part.madeFor ? out.part.madeFor : primitive.madeFor;

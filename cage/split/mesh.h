@@ -81,6 +81,7 @@ struct Mesh {
     VertexMorphs morphs;
     std::vector<Jiggle> jiggles;
     std::vector<JiggleWeight> jiggleWeights; ///< per vertex; or empty: none jiggles
+    std::vector<float> mushMask;             ///< per vertex; or empty: delta mush smooths them wholly
     std::vector<uint32_t> cageNumbers;       ///< per vertex, where the source numbers cage vertices; else empty
     WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers
     /// Vertices that are one, where the source lists these pairs and no cage numbers (WeldSource::meshManifold).
@@ -88,6 +89,7 @@ struct Mesh {
     std::vector<Primitive> primitives; ///< at least one
     std::optional<LooseSharpList> creases, corners;
     std::optional<SkinningMode> skinning;
+    std::optional<Smoothing> smoothing;
 };
 
 } // namespace supple::cage::split

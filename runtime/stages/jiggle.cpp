@@ -73,7 +73,7 @@ public:
         gpu::OwnDispatches dispatches(*device_, commandBuffer);
         dispatches->computeBarrier();
         JigglePush push{}; // of no instances
-        push.firstInfluences = asset_->firstInfluences;
+        push.firstInfluences = asset_->skin(instances_->skinning()).firstInfluences;
         kernels_->record(*dispatches, sets_[0], instances_->skinning(), push);
     }
 
@@ -83,7 +83,7 @@ private:
     [[nodiscard]] Status writeSet(uint32_t w, const CageBuffers& buffers) {
         const InstanceWindows& windows = buffers.listing->windows();
         const Playback::StepPoses steps = playback().stepPoses();
-        const gpu::StaticBuffers& table = asset_->deformTable(instances_->skinning());
+        const gpu::StaticBuffers& table = asset_->skin(instances_->skinning()).buffers;
         const gpu::StaticBuffers& jiggles = asset_->jiggles;
         Status status = success();
         const auto view = [&](const VkDescriptorBufferInfo& info, VkFormat format, const char* name) {
@@ -133,8 +133,8 @@ private:
         push.stateStride = stateStride_;
         push.cageStride = cageStride_;
         push.morphWeights = instances_->poseLayout().morphWeights;
-        push.firstInfluences = asset_->firstInfluences;
-        push.firstCenter = asset_->firstCenter;
+        push.firstInfluences = asset_->skin(instances_->skinning()).firstInfluences;
+        push.firstCenter = asset_->skin(instances_->skinning()).firstCenter;
         return push;
     }
 
@@ -166,7 +166,7 @@ bool wantsJiggle(const CageStageDesc& desc) {
 
 Result<std::unique_ptr<CageStage>> makeJiggle(const CageStageDesc& desc, CageKernels& kernels) {
     skinning::JiggleKernels& own = static_cast<JiggleStageKernels&>(kernels).kernels;
-    const Status prepared = own.prepare(desc.instances->skinning(), desc.asset->firstInfluences != 0);
+    const Status prepared = own.prepare(desc.instances->skinning(), desc.asset->hasMorphs());
     if (!prepared) {
         return prepared.error();
     }

@@ -5,6 +5,7 @@
 #include "tests/support/dual_quaternion_reference.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
+#include "tests/support/mush_reference.h"
 #include "tests/support/posed_group.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/shared_assets.h"
@@ -117,6 +118,10 @@ std::vector<glm::dvec3> skinnedOnCpu(SuppleSkinning skinning, const cage::Charac
     case SUPPLE_SKINNING_CENTERS_OF_ROTATION:
         return skinAboutCenters(morphed, centersOf(skinning::findCenters(character)), character.weights, palette,
                                 transform);
+    case SUPPLE_SKINNING_DELTA_MUSH:
+    case SUPPLE_SKINNING_DELTA_MUSH_LIGHT:
+        return skinByMush(morphed, mushOf(*skinning::findDeltaMush(character)), palette,
+                          skinning == SUPPLE_SKINNING_DELTA_MUSH_LIGHT, transform);
     default:
         return skinning::deformOnCpu(morphed, character.weights, palette);
     }
@@ -257,7 +262,8 @@ TEST_F(DeformOnGpu, ClipsAnimateMorphWeights) {
 
 class RotationsBlended : public DeformOnGpu, public testing::WithParamInterface<SuppleSkinning> {};
 INSTANTIATE_TEST_SUITE_P(Skinnings, RotationsBlended,
-                         testing::Values(SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION));
+                         testing::Values(SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION,
+                                         SUPPLE_SKINNING_DELTA_MUSH, SUPPLE_SKINNING_DELTA_MUSH_LIGHT));
 
 TEST_P(RotationsBlended, AgreeWithThePapers) {
     const ValidationGuard guard;
@@ -570,8 +576,9 @@ TEST_F(DeformOnGpu, LargeGroupsAreWindowsOfInstances) {
 TEST(DeformShader, EveryHelperMustBePrecise) {
     // What makes the mappings agree: the static check must see `precise` go from any helper on the way to the position.
     for (const char* helper : {"transformed", "weighted", "morphed", "blendedLinearly", "sum4", "crossed", "influence",
-                               "blendedAsDualQuaternions", "applied", "turned", "apart", "blendedAboutCenter"}) {
-        const std::vector<uint32_t> spirv = compileShader("deform/deform.comp", helper);
+                               "blendedAsDualQuaternions", "applied", "turned", "apart", "blendedAboutCenter", "slid",
+                               "withPart", "rotationOf", "blendedByMush"}) {
+        const std::vector<uint32_t> spirv = compileShader("deform/deform.comp", helper, "-DMUSH");
         ASSERT_FALSE(spirv.empty());
         uint32_t checked = 0;
         EXPECT_FALSE(imprecisePositionArithmetic(spirv, "p", checked).empty()) << helper;

@@ -6,6 +6,7 @@
 #include "cage/ngon_fans.h"
 #include "cage/refusal.h"
 #include "tools/gltf/jiggle_writer.h"
+#include "tools/gltf/smoothing_writer.h"
 
 #include <algorithm>
 #include <array>
@@ -226,6 +227,7 @@ private:
         }
         writeSkin(part, attributes);
         writeJiggles(part, attributes);
+        writeMushMask(part, attributes);
 
         const auto vertexCount = static_cast<uint32_t>(part.corners.size());
         json primitive = {{"attributes", std::move(attributes)}, {"mode", 4}};
@@ -298,6 +300,18 @@ private:
                 weights.push_back(own.jiggle == j ? own.weight : 0.0f);
             }
             attributes[jiggleAttribute(j)] = packer_.addFloats("SCALAR", weights, Target::vertices);
+        }
+    }
+
+    void writeMushMask(const WrittenPrimitive& part, json& attributes) {
+        std::vector<float> mask;
+        for (const uint32_t v : part.cageVertices) {
+            if (!character_.weights.mushMask.empty()) {
+                mask.push_back(character_.weights.mushMask[v]);
+            }
+        }
+        if (!mask.empty()) {
+            attributes[kMushMaskAttribute] = packer_.addFloats("SCALAR", mask, Target::vertices);
         }
     }
 

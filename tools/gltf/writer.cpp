@@ -6,6 +6,7 @@
 #include "cage/refusal.h"
 #include "tools/gltf/driver_writer.h"
 #include "tools/gltf/jiggle_writer.h"
+#include "tools/gltf/smoothing_writer.h"
 #include "tools/gltf/material_writer.h"
 #include "tools/gltf/mesh_writer.h"
 #include "tools/gltf/packer.h"
@@ -318,6 +319,9 @@ json writeMeshes(const Character& character, const Skins& skins, Packer& packer,
         if (const auto& skinning = part.parts[0].skinning) {
             mesh["extensions"]["SUPPLE_deformers"]["skinning"] = skinningModeName(*skinning);
         }
+        if (saysSmoothing(part)) {
+            mesh["extensions"]["SUPPLE_deformers"]["smoothing"] = writeSmoothing(part);
+        }
         if (!part.drivers.empty()) {
             mesh["extensions"]["SUPPLE_deformers"]["drivers"] = writeDrivers(part.drivers, packer);
         }
@@ -347,8 +351,8 @@ GlbFile toGlb(const Character& character) {
     json root = newRoot(character);
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
     if (std::any_of(character.parts.begin(), character.parts.end(),
-                    [](const Part& part) { return part.skinning.has_value(); }) ||
-        !character.drivers.empty() || !character.jiggles.empty()) {
+                    [](const Part& part) { return part.skinning || part.smoothing; }) ||
+        !character.weights.mushMask.empty() || !character.drivers.empty() || !character.jiggles.empty()) {
         root["extensionsUsed"].push_back("SUPPLE_deformers");
     }
     writeNodes(character, skins, root, file.warnings);
