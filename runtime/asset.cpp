@@ -67,10 +67,10 @@ Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, std::sha
 }
 
 Status Asset::makeSkin(const gpu::Device& device, const std::shared_ptr<const std::vector<uint32_t>>& words) {
-    return makeTable(device, skinning::SkinTable::plain, prepared->deform, words);
+    return makeTable(device, skinning::SkinTableKind::plain, prepared->deform, words);
 }
 
-Status Asset::makeTable(const gpu::Device& device, skinning::SkinTable kind, const skinning::DeformTable& table,
+Status Asset::makeTable(const gpu::Device& device, skinning::SkinTableKind kind, const skinning::DeformTable& table,
                         const std::shared_ptr<const std::vector<uint32_t>>& words) {
     constexpr const char* kNames[] = {"skin tables", "skin tables with centers", "skin tables of delta mush",
                                       "skin tables of light delta mush"};

@@ -49,9 +49,9 @@ struct Asset {
     const skinning::Rig& rig;
     const skinning::JointFrames& jointFrames;
 
-    SkinTables
-        skins[skinning::kSkinTables]; ///< by skinning::SkinTable; but for `plain`, made for the first group that asks
-    mutable ClipBounds clipBounds;    ///< what has been asked for
+    SkinTables skins[skinning::kSkinTables]; ///< by skinning::SkinTableKind; but for `plain`, made for the first group
+                                             ///< that asks
+    mutable ClipBounds clipBounds;           ///< what has been asked for
     mutable std::optional<skinning::Contacts> contacts; ///< once they have been asked for
     // Made for the first group that plays on the device:
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
@@ -81,7 +81,7 @@ struct Asset {
     /// For create().
     [[nodiscard]] Status makeSkin(const gpu::Device& device, const std::shared_ptr<const std::vector<uint32_t>>& words);
     // For makeSkin() and makeSkinning().
-    [[nodiscard]] Status makeTable(const gpu::Device& device, skinning::SkinTable kind,
+    [[nodiscard]] Status makeTable(const gpu::Device& device, skinning::SkinTableKind kind,
                                    const skinning::DeformTable& table,
                                    const std::shared_ptr<const std::vector<uint32_t>>& words);
     [[nodiscard]] Status findExtra(skinning::SkinExtra extra);

@@ -77,15 +77,15 @@ void putLightMush(std::span<const MushInfluence> own, Words& words) {
 }
 
 void putInfluences(const cage::Character& character, const Skinning& skinning, uint32_t vertex, Words& words) {
-    const SkinTable table = skinningRow(skinning.mode).table;
-    if (table == SkinTable::plain || table == SkinTable::centers) {
+    const SkinTableKind table = skinningRow(skinning.mode).table;
+    if (table == SkinTableKind::plain || table == SkinTableKind::centers) {
         putInfluences(character.weights, vertex, words);
         return;
     }
     const DeltaMush& mush = *skinning.mush;
     const std::span<const MushInfluence> own =
         std::span(mush.influences).subspan(mush.starts[vertex], mush.starts[vertex + 1] - mush.starts[vertex]);
-    (table == SkinTable::mush ? putMush : putLightMush)(own, words);
+    (table == SkinTableKind::mush ? putMush : putLightMush)(own, words);
 }
 
 /// About what vertices turn; empty: joints alone say it.

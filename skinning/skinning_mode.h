@@ -15,32 +15,35 @@ using cage::SkinningMode;
 /// What deform tables have beside influences.
 enum class SkinExtra : uint8_t { none, centers, mush };
 /// Ways of skinning that read the same deform table.
-enum class SkinTable : uint8_t { plain, centers, mush, lightMush };
+enum class SkinTableKind : uint8_t { plain, centers, mush, lightMush };
 inline constexpr size_t kSkinTables = 4;
 
 struct SkinningRow {
     const char* kernels[2]; ///< names of the deform pass, without and with morph targets
     bool rotations;         ///< poses have the joints' rotations, and the instance's transform apart
     SkinExtra extra;
-    SkinTable table;
+    SkinTableKind table;
 };
 
 [[nodiscard]] inline const SkinningRow& skinningRow(SkinningMode mode) {
     static constexpr SkinningRow kRows[] = {
-        {{"supple deform", "supple deform, morphs"}, false, SkinExtra::none, SkinTable::plain},
+        {{"supple deform", "supple deform, morphs"}, false, SkinExtra::none, SkinTableKind::plain},
         {{"supple deform, dual quaternions", "supple deform, dual quaternions, morphs"},
          true,
          SkinExtra::none,
-         SkinTable::plain},
+         SkinTableKind::plain},
         {{"supple deform, centers of rotation", "supple deform, centers of rotation, morphs"},
          true,
          SkinExtra::centers,
-         SkinTable::centers},
-        {{"supple deform, delta mush", "supple deform, delta mush, morphs"}, true, SkinExtra::mush, SkinTable::mush},
+         SkinTableKind::centers},
+        {{"supple deform, delta mush", "supple deform, delta mush, morphs"},
+         true,
+         SkinExtra::mush,
+         SkinTableKind::mush},
         {{"supple deform, light delta mush", "supple deform, light delta mush, morphs"},
          true,
          SkinExtra::mush,
-         SkinTable::lightMush},
+         SkinTableKind::lightMush},
     };
     return kRows[static_cast<size_t>(mode)];
 }

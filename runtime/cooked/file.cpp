@@ -184,7 +184,7 @@ void readCenters(Reader& reader, Prepared& prepared) {
     prepared.centers = skinning::Centers::of(prepared.character, std::move(*points));
 }
 
-bool isSound(const skinning::MushInfluence& influence, size_t jointCount) {
+bool isSoundInfluence(const skinning::MushInfluence& influence, size_t jointCount) {
     const glm::vec3& o = influence.offset;
     return influence.joint < jointCount && influence.weight >= 0.0f && std::isfinite(influence.weight) &&
            std::isfinite(o.x + o.y + o.z) &&
@@ -201,12 +201,15 @@ void readMush(Reader& reader, Prepared& prepared) {
     std::vector<uint32_t> starts;
     std::vector<skinning::MushInfluence> influences;
     reader(places, starts, influences);
+    if (reader.fault()) {
+        return;
+    }
     const size_t joints = prepared.character.skin.joints.size(), vertices = prepared.character.cage.positions.size();
-    const bool sound = !reader.fault() && arePlaces(places, vertices) && starts.size() == vertices + 1 &&
-                       starts.front() == 0 && starts.back() == influences.size() &&
+    const bool sound = arePlaces(places, vertices) && starts.size() == vertices + 1 && starts.front() == 0 &&
+                       starts.back() == influences.size() &&
                        std::adjacent_find(starts.begin(), starts.end(), std::greater_equal<>()) == starts.end() &&
                        std::all_of(influences.begin(), influences.end(), [&](const skinning::MushInfluence& influence) {
-                           return isSound(influence, joints);
+                           return isSoundInfluence(influence, joints);
                        });
     if (!sound) {
         reader.refuse("smoothed weights that are none");

@@ -30,7 +30,7 @@ SUPPLE_SHARED_CONST kWorkgroupPointsConstant = 11u; // points that workgroup mem
 
 // Skinning.
 SUPPLE_SHARED_CONST kMorphsConstant = 12u;          // bool: the cage has morph targets
-SUPPLE_SHARED_CONST kSkinningConstant = 13u;        // kLinearSkinning, ...
+SUPPLE_SHARED_CONST kSkinningConstant = 13u;        // kLinearSkinning, kDualQuaternionSkinning or kCenterSkinning
 SUPPLE_SHARED_CONST kWorkgroupRowsConstant = 14u;   // matrix rows that workgroup memory has room for
 SUPPLE_SHARED_CONST kRotationsConstant = 19u;       // bool: poses are rows and rotations, else rows alone
 

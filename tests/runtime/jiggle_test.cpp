@@ -65,9 +65,8 @@ TEST_F(Jiggles, HaveTheWordsOfTheCpu) {
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
         const SuppleAsset asset = own.createAsset(jigglingWren());
-        for (const SuppleSkinning skinning :
-             {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION,
-              SUPPLE_SKINNING_DELTA_MUSH}) {
+        for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION,
+                                              SUPPLE_SKINNING_CENTERS_OF_ROTATION, SUPPLE_SKINNING_DELTA_MUSH}) {
             JigglingGroup soft(own, playedGroup(asset, kCount, kSoft, skinning));
             JigglingGroup stiff(own, playedGroup(asset, kCount, 0, skinning));
             ASSERT_TRUE(soft.crowd.valid() && stiff.crowd.valid());

@@ -22,7 +22,7 @@ struct Checked {
     const char* position; ///< what the shader calls the value that becomes a position or feeds one
     bool levels = true;   ///< it is compiled for levels as well
     bool roots = false; ///< what is computed once, as a joint's matrix: its square roots need not agree with another's
-    std::string form = "";  ///< a macro that it is compiled with
+    std::string form = ""; ///< a macro that it is compiled with
 };
 const Checked kShaders[] = {
     {"evaluate/bicubic.comp", "position"},
@@ -70,7 +70,8 @@ TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
             ASSERT_FALSE(spirv.empty());
             uint32_t checked = 0;
             const std::vector<std::string> offences = imprecisePositionArithmetic(spirv, c.position, checked, c.roots);
-            std::printf("%-20s %s%-15s %u operations carry NoContraction\n", c.shader, c.form.c_str(), macros.c_str(), checked);
+            std::printf("%-20s %s%-15s %u operations carry NoContraction\n", c.shader, c.form.c_str(), macros.c_str(),
+                        checked);
             EXPECT_GE(checked, 5u) << c.shader << ": the walk found too little to be believed";
             for (const std::string& offence : offences) {
                 ADD_FAILURE() << c.shader << " " << macros << ": " << offence;

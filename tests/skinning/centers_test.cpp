@@ -135,9 +135,10 @@ TEST(Centers, BesideTheOtherSkinningsOnRigs) {
         const test::Bend bend(character, c.turn);
         const std::vector<glm::dvec3> rest = test::doublePositions(character.cage);
         const test::LimbMeasure linear = test::measured(bend, deformOnCpu(rest, character.weights, bend.palette()));
-        const test::LimbMeasure dual = test::measured(bend, test::skinWithDualQuaternions(rest, character.weights, bend.palette()));
-        const test::LimbMeasure about =
-            test::measured(bend, test::skinAboutCenters(rest, test::centersOf(centers), character.weights, bend.palette()));
+        const test::LimbMeasure dual =
+            test::measured(bend, test::skinWithDualQuaternions(rest, character.weights, bend.palette()));
+        const test::LimbMeasure about = test::measured(
+            bend, test::skinAboutCenters(rest, test::centersOf(centers), character.weights, bend.palette()));
         std::printf("%-18s %-20s", c.file, c.name);
         for (const auto& [own, wanted] : {std::pair(linear, c.linear), {dual, c.dual}, {about, c.centers}}) {
             std::printf("  %3.0f (%.2f %.2f) %u", own.volume, own.thickness[0], own.thickness[1], own.turnedOver);

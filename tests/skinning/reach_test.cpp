@@ -2,9 +2,9 @@
 #include "skinning/reach.h"
 
 #include "cage/gltf/reader.h"
-#include "skinning/played_pose.h"
 #include "skinning/centers.h"
 #include "skinning/delta_mush.h"
+#include "skinning/played_pose.h"
 #include "skinning/skinned_bounds.h"
 #include "tests/support/boxes.h"
 #include "tests/support/centers_reference.h"

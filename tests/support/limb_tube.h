@@ -8,8 +8,8 @@
 
 namespace supple::test {
 
-/// Radius 1, 16 long, 33 rings of 12 vertices along +z, two joints; weights go over in a smooth step within 2 of the second
-/// joint, which is at 0. Hard: at once.
+/// Radius 1, 16 long, 33 rings of 12 vertices along +z, two joints; weights go over in a smooth step within 2 of the
+/// second joint, which is at 0. Hard: at once.
 [[nodiscard]] cage::Character limbTube(bool hard = false);
 /// With its ends closed.
 [[nodiscard]] double limbTubeVolume(std::span<const glm::dvec3> points);

@@ -1,5 +1,5 @@
-// Direct delta mush on the CPU in double, as the paper's formulas are written about the smoothed vertex: an account of its own,
-// against which that of the library and its deform pass are tested.
+// Direct delta mush on the CPU in double, as the paper's formulas are written about the smoothed vertex: an account of
+// its own, against which that of the library and its deform pass are tested.
 #pragma once
 
 #include "cage/character.h"

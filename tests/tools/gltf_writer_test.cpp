@@ -328,7 +328,8 @@ TEST(GltfWriter, TheExtensionByHand) {
     EXPECT_EQ(glb.root["extensionsUsed"], json({"FB_ngon_encoding", "SUPPLE_mesh_cage", "SUPPLE_deformers",
                                                 "EXT_texture_webp", "KHR_materials_emissive_strength",
                                                 "KHR_materials_unlit", "KHR_texture_basisu", "KHR_texture_transform"}));
-    EXPECT_EQ(glb.root["meshes"][0]["extensions"], json({{"SUPPLE_deformers",
+    EXPECT_EQ(glb.root["meshes"][0]["extensions"],
+              json({{"SUPPLE_deformers",
                      {{"skinning", "deltaMush"},
                       {"smoothing", {{"lambda", 0.5}, {"iterations", 8}, {"mask", "_SUPPLE_MUSH"}}}}}}));
     EXPECT_EQ(glb.root["extensionsRequired"], json({"EXT_texture_webp", "KHR_texture_basisu"}))

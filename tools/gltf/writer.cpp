@@ -6,10 +6,10 @@
 #include "cage/refusal.h"
 #include "tools/gltf/driver_writer.h"
 #include "tools/gltf/jiggle_writer.h"
-#include "tools/gltf/smoothing_writer.h"
 #include "tools/gltf/material_writer.h"
 #include "tools/gltf/mesh_writer.h"
 #include "tools/gltf/packer.h"
+#include "tools/gltf/smoothing_writer.h"
 #include "tools/gltf/still_mesh_writer.h"
 
 #include <algorithm>

@@ -300,7 +300,8 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     const std::optional<cage::SkinningMode> skinning = character.parts[0].skinning;
     json["skinning"] = skinning ? Json(cage::skinningModeName(*skinning)) : Json();
     const std::optional<cage::Smoothing> smoothing = character.parts[0].smoothing;
-    json["smoothing"] = smoothing ? Json({{"lambda", smoothing->lambda}, {"iterations", smoothing->iterations}}) : Json();
+    json["smoothing"] =
+        smoothing ? Json({{"lambda", smoothing->lambda}, {"iterations", smoothing->iterations}}) : Json();
     json["parts"] = partsToJson(character);
     json["vertices"] = cage.vertexCount();
     json["faces"] = cage.faceCount();

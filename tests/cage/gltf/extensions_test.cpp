@@ -43,9 +43,8 @@ GltfBuilder skinnedBy(const std::string& first, const std::string& second) {
 }
 
 TEST(GltfDeformers, MeshesNameTheirSkinning) {
-    for (const SkinningMode mode :
-         {SkinningMode::linear, SkinningMode::dualQuaternion, SkinningMode::centersOfRotation, SkinningMode::deltaMush,
-          SkinningMode::deltaMushLight}) {
+    for (const SkinningMode mode : {SkinningMode::linear, SkinningMode::dualQuaternion, SkinningMode::centersOfRotation,
+                                    SkinningMode::deltaMush, SkinningMode::deltaMushLight}) {
         const std::string named = R"({"skinning":")" + std::string(skinningModeName(mode)) + R"("})";
         const Character c = readWell(skinnedBy(named, "{}"), kStrict);
         EXPECT_EQ(c.parts[0].skinning, mode);
@@ -69,8 +68,9 @@ TEST(GltfDeformers, MeshesSayHowTheyAreSmoothed) {
     const Character c = readWell(skinnedBy(R"({"smoothing":{"lambda":2.5,"iterations":8}})", R"({"smoothing":{}})"));
     EXPECT_EQ(c.parts[0].smoothing, (Smoothing{2.5f, 8}));
     EXPECT_EQ(c.parts[1].smoothing, Smoothing());
-    EXPECT_EQ(c.warnings, (Strings{"part \"b\": its smoothing is not that of part \"a\", which comes first and holds for "
-                                   "all"}));
+    EXPECT_EQ(c.warnings,
+              (Strings{"part \"b\": its smoothing is not that of part \"a\", which comes first and holds for "
+                       "all"}));
     EXPECT_TRUE(c.weights.mushMask.empty());
 
     const std::string place = "t.glb: mesh 0 SUPPLE_deformers smoothing";
