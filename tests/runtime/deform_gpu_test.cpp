@@ -331,7 +331,12 @@ TEST_P(RotationsBlended, AgreeWithThePapers) {
     EXPECT_GT(flips, 500u);
 }
 
-TEST_P(RotationsBlended, MoveVerticesOfOneJointAsLinearOnes) {
+/// Where no vertex has anything of its neighbors' joints.
+class RotationsAlone : public RotationsBlended {};
+INSTANTIATE_TEST_SUITE_P(Skinnings, RotationsAlone,
+                         testing::Values(SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION));
+
+TEST_P(RotationsAlone, MoveVerticesOfOneJointAsLinearOnes) {
     const ValidationGuard guard;
     for (const SuppleMapping mapping : kMappings) {
         PosedGroup linear(context(mapping), riggedTube(), {SUPPLE_SKINNING_LINEAR, 1});
@@ -444,7 +449,9 @@ TEST_P(RotationsBlended, ScaledJointsDoNotDependOnTheOrigin) {
             middle += shapes[far][8 * 12 + k] / 12.0f;
             shapes[far][8 * 12 + k] += origins[far];
         }
-        EXPECT_LT(glm::length(middle - glm::vec3(4, 0, 0)), 1e-4f) << "the ring round the joint stays round it";
+        const bool mush = skinning::isMush(static_cast<skinning::SkinningMode>(GetParam()));
+        EXPECT_LT(glm::length(middle - glm::vec3(4, 0, 0)), mush ? 0.1f : 1e-4f)
+            << "the ring round the joint stays round it; delta mush pulls it inwards";
     }
     double worst = 0.0;
     for (size_t v = 0; v < shapes[0].size(); ++v) {
