@@ -46,7 +46,7 @@ const char* uvModeName(UvMode mode) {
 }
 
 const char* skinningModeName(SkinningMode mode) {
-    constexpr const char* kNames[] = {"linear", "dualQuaternion", "centersOfRotation"};
+    constexpr const char* kNames[] = {"linear", "dualQuaternion", "centersOfRotation", "deltaMush", "deltaMushLight"};
     return kNames[static_cast<size_t>(mode)];
 }
 

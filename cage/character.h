@@ -130,6 +130,7 @@ struct SkinWeights {
     // One per cage vertex; or empty: none is painted. A vertex that has both is cloth.
     std::vector<PaintedWeight> jiggles; ///< of Character::jiggles
     std::vector<PaintedWeight> cloths;  ///< of Character::cloths; the weight is what part of its mobility it has
+    std::vector<float> mushMask;        ///< how much delta mush smooths each cage vertex, 0 to 1; or empty: wholly
 };
 
 enum class Interpolation { step, linear, cubicSpline };
@@ -455,8 +456,17 @@ enum class UvMode : uint8_t { none, cornersOnly, cornersPlus1, cornersPlus2, bou
 [[nodiscard]] const char* uvModeName(UvMode mode);
 
 /// How several joints move one vertex. The names are those of the extension SUPPLE_deformers (docs/skinning.md).
-enum class SkinningMode : uint8_t { linear, dualQuaternion, centersOfRotation };
+enum class SkinningMode : uint8_t { linear, dualQuaternion, centersOfRotation, deltaMush, deltaMushLight };
 [[nodiscard]] const char* skinningModeName(SkinningMode mode);
+
+/// How delta mush smooths weights: (1 + lambda times the cage's Laplacian)^-iterations (SUPPLE_deformers,
+/// docs/skinning.md).
+struct Smoothing {
+    float lambda = 1.0f;
+    uint32_t iterations = 4;
+
+    bool operator==(const Smoothing&) const = default;
+};
 
 /// The subdivision surface that a cage was made for: `scheme` of SUPPLE_mesh_cage. `none`: it is drawn as it is.
 enum class MadeFor : uint8_t { catmullClark, loop, bilinear, none };
@@ -476,6 +486,7 @@ struct Part {
     std::optional<UvMode> uvMode;         ///< what the file says (SUPPLE_mesh_cage: faceVaryingLinearInterpolation)
     std::optional<MadeFor> madeFor;       ///< what the file says (SUPPLE_mesh_cage: scheme)
     std::optional<SkinningMode> skinning; ///< what the file says (SUPPLE_deformers: skinning)
+    std::optional<Smoothing> smoothing;   ///< what the file says (SUPPLE_deformers: smoothing)
 };
 
 /// One kind of damage of a cage that its reader has repaired.

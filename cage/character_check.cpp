@@ -5,6 +5,7 @@
 #include "cage/message.h"
 #include "cage/skeleton.h"
 #include "cage/soft.h"
+#include "cage/smoothing.h"
 #include "cage/solved_driver.h"
 #include "cage/trim.h"
 
@@ -68,6 +69,7 @@ public:
     void skeleton();
     void skin();
     void soft();
+    void mush();
     void morphs();
     void expressions();
     void drivers();
@@ -242,6 +244,16 @@ void Check::soft() {
     check(character_.weights.cloths, character_.cloths.size(), "cloth");
 }
 
+void Check::mush() {
+    for (const Part& part : character_.parts) {
+        require(!part.smoothing || isSound(*part.smoothing), "a smoothing's numbers are out of range");
+    }
+    const std::vector<float>& mask = character_.weights.mushMask;
+    require(mask.empty() || mask.size() == character_.cage.vertexCount(), "not one mask of delta mush a vertex");
+    require(std::all_of(mask.begin(), mask.end(), [](float own) { return own >= 0.0f && own <= 1.0f; }),
+            "a mask of delta mush is not from 0 to 1");
+}
+
 void Check::morphs() {
     require(character_.morphs.weights.size() == character_.morphs.targets.size() && isFinite(character_.morphs.weights),
             "morph targets have no finite weights");
@@ -407,6 +419,7 @@ Status checkCharacter(const Character& character) {
         check.parts();
         check.skin();
         check.soft();
+        check.mush();
         check.morphs();
         check.expressions();
         check.drivers();

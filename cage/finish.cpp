@@ -12,6 +12,18 @@ namespace supple::cage {
 
 namespace {
 
+/// A cage is smoothed as a whole: as the first part says that says something.
+void reportSmoothings(Character& character) {
+    const Part* first = nullptr;
+    for (const Part& part : character.parts) {
+        first = first == nullptr && part.smoothing ? &part : first;
+        if (part.smoothing && part.smoothing != first->smoothing) {
+            warn(character.warnings, "part " + quoted(part.name),
+                 "its smoothing is not that of part " + quoted(first->name) + ", which comes first and holds for all");
+        }
+    }
+}
+
 /// A group has one way of skinning: the first that is named.
 void reportSkinnings(Character& character) {
     const Part* first = nullptr;
@@ -48,6 +60,7 @@ void finishCharacter(std::vector<PartCage> parts, const FinishOptions& options, 
         creasePartlySplitNormals(character);
     }
     reportSkinnings(character);
+    reportSmoothings(character);
     reportDamages(character, options.strict);
     character.warnings = readableLines(character.warnings);
 }

@@ -140,6 +140,11 @@ void appendPainted(const std::vector<PaintedWeight>& weights, const std::vector<
     appendTo(all, more);
 }
 
+/// Where one part has a mask, the others are smoothed wholly.
+void appendMushMask(const PartCage& from, uint32_t firstVertex, SkinWeights& weights) {
+    appendPadded(weights.mushMask, firstVertex, from.weights.mushMask, from.cage.vertexCount(), 1.0f);
+}
+
 /// The clips' channels of the weights of each part's targets.
 using WeightChannels = std::vector<std::vector<const Channel*>>;
 
@@ -410,6 +415,11 @@ Character takePart(const Character& character, size_t index) {
     }
     takePainted(character.weights.jiggles, character.jiggles, piece.vertices, taken.weights.jiggles, taken.jiggles);
     takePainted(character.weights.cloths, character.cloths, piece.vertices, taken.weights.cloths, taken.cloths);
+    for (const uint32_t v : piece.vertices) {
+        if (!character.weights.mushMask.empty()) {
+            taken.weights.mushMask.push_back(character.weights.mushMask[v]);
+        }
+    }
     std::vector<uint32_t> places(character.cage.vertexCount(), kNone);
     for (uint32_t v = 0; v < piece.vertices.size(); ++v) {
         places[piece.vertices[v]] = v;
@@ -460,6 +470,7 @@ CageNames joinParts(std::vector<PartCage> parts, Character& character) {
         appendPainted(part.weights.jiggles, part.jiggles, firstVertex, count, character.weights.jiggles,
                       character.jiggles);
         appendPainted(part.weights.cloths, part.cloths, firstVertex, count, character.weights.cloths, character.cloths);
+        appendMushMask(part, firstVertex, character.weights);
         character.sourceVertexCount += part.sourceVertexCount;
         character.seamVertexCount += part.seamVertexCount;
         character.parts.push_back(std::move(part.part));

@@ -253,6 +253,9 @@ void mergeVertices(std::span<const uint32_t> roots, Character& character) {
         if (!character.weights.cloths.empty()) {
             weights.cloths.push_back(character.weights.cloths[v]);
         }
+        if (!character.weights.mushMask.empty()) {
+            weights.mushMask.push_back(character.weights.mushMask[v]);
+        }
     }
     cage.positions.resize(kept);
     cage.sourceVertices.resize(kept);

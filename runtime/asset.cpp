@@ -69,42 +69,60 @@ Result<std::shared_ptr<Asset>> Asset::create(const gpu::Device& device, std::sha
 }
 
 Status Asset::makeSkin(const gpu::Device& device, const std::shared_ptr<const std::vector<uint32_t>>& words) {
-    Result<gpu::StaticBuffers> made = upload(device, character.name + ": ", "skin tables", words);
+    return makeTable(device, skinning::SkinTableKind::plain, prepared->deform, words);
+}
+
+Status Asset::makeTable(const gpu::Device& device, skinning::SkinTableKind kind, const skinning::DeformTable& table,
+                        const std::shared_ptr<const std::vector<uint32_t>>& words) {
+    constexpr const char* kNames[] = {"skin tables", "skin tables with centers", "skin tables of delta mush",
+                                      "skin tables of light delta mush"};
+    Result<gpu::StaticBuffers> made = upload(device, character.name + ": ", kNames[static_cast<size_t>(kind)], words);
     if (!made) {
         return made.error();
     }
-    buffers = std::move(*made);
-    firstInfluences = prepared->deform.firstInfluences;
+    skins[static_cast<size_t>(kind)] = {std::move(*made), table.firstInfluences, table.firstCenter};
     return success();
 }
 
-const skinning::Centers* Asset::centers() const {
-    if (prepared->centers) {
-        return &*prepared->centers;
+skinning::Skinning Asset::skinning(skinning::SkinningMode mode) const {
+    const auto found = [](const auto& prepared, const auto& own) {
+        return prepared ? &*prepared : own ? &*own : nullptr;
+    };
+    return {mode, found(prepared->centers, ownCenters), found(prepared->mush, ownMush)};
+}
+
+Status Asset::findExtra(skinning::SkinExtra extra) {
+    if (extra == skinning::SkinExtra::centers && !prepared->centers && !ownCenters) {
+        ownCenters = skinning::findCenters(character);
+        noteLate("the centers of rotation");
     }
-    return ownCenters ? &*ownCenters : nullptr;
+    if (extra == skinning::SkinExtra::mush && !prepared->mush && !ownMush) {
+        Result<skinning::DeltaMush> mush = skinning::findDeltaMush(character);
+        if (!mush) {
+            return mush.error();
+        }
+        ownMush = std::move(*mush);
+        noteLate("the smoothed weights of delta mush");
+    }
+    return success();
+}
+
+void Asset::noteLate(const char* what) {
+    if (!ownsPrepared) {
+        builtLate.emplace_back(what);
+    }
 }
 
 Status Asset::makeSkinning(const gpu::Device& device, skinning::SkinningMode mode) {
-    if (!skinning::skinningRow(mode).centers || !centered.empty()) {
+    const skinning::SkinningRow& row = skinning::skinningRow(mode);
+    if (!skin(mode).buffers.empty()) {
         return success();
     }
-    if (centers() == nullptr) {
-        ownCenters = skinning::findCenters(character);
-        if (!ownsPrepared) {
-            builtLate.emplace_back("the centers of rotation");
-        }
+    if (Status found = findExtra(row.extra); !found) {
+        return found;
     }
-    skinning::DeformTable table =
-        skinning::buildDeformTable(character.cage, character.weights, character.morphs, centers()->points);
-    firstCenter = table.firstCenter;
-    Result<gpu::StaticBuffers> made =
-        upload(device, character.name + ": ", "skin tables with centers", takenFrom(table.words));
-    if (!made) {
-        return made.error();
-    }
-    centered = std::move(*made);
-    return success();
+    skinning::DeformTable table = skinning::buildDeformTable(character, skinning(mode));
+    return makeTable(device, row.table, table, takenFrom(table.words));
 }
 
 const skinning::Reach& Asset::reach() {
@@ -279,9 +297,10 @@ void Asset::measureUpdates() {
 }
 
 gpu::MemoryUse Asset::memoryUse() const {
-    gpu::MemoryUse use = buffers.use();
-    use += centered.use();
-    use += clips.use();
+    gpu::MemoryUse use = clips.use();
+    for (const SkinTables& skin : skins) {
+        use += skin.buffers.use();
+    }
     use += jiggles.table.use();
     use += cloths.table.use();
     for (const std::shared_ptr<AssetPiece>& piece : pieces) {

@@ -8,7 +8,6 @@
 #include "runtime/prepared.h"
 #include "skinning/contacts.h"
 #include "skinning/driver_table.h"
-#include "skinning/skinned_bounds.h"
 #include "skinning/update_errors.h"
 #include "supple/supple.h"
 
@@ -41,6 +40,12 @@ struct SoftOfAsset {
     uint32_t stateElements = 0; ///< of an instance
 };
 
+/// The deform table of a way of skinning.
+struct SkinTables {
+    gpu::StaticBuffers buffers;                    ///< 0: it
+    uint32_t firstInfluences = 0, firstCenter = 0; ///< skinning::DeformTable
+};
+
 struct Asset {
     /// If it is the asset's own, the words of its tables are gone: who uploads them has them.
     const std::shared_ptr<const Prepared> prepared;
@@ -51,11 +56,9 @@ struct Asset {
     const skinning::Rig& rig;
     const skinning::JointFrames& jointFrames;
 
-    gpu::StaticBuffers buffers;    ///< 0: the deform table
-    gpu::StaticBuffers centered;   ///< 0: that with centers, made for the first group that is skinned about them
-    uint32_t firstInfluences = 0;  ///< skinning::DeformTable, of both
-    uint32_t firstCenter = 0;      ///< of `centered`
-    mutable ClipBounds clipBounds; ///< what has been asked for
+    SkinTables skins[skinning::kSkinTables]; ///< by skinning::SkinTableKind; but for `plain`, made for the first group
+                                             ///< that asks
+    mutable ClipBounds clipBounds;           ///< what has been asked for
     mutable std::optional<skinning::Contacts> contacts; ///< once they have been asked for
     // Made for the first group that plays on the device:
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
@@ -66,6 +69,7 @@ struct Asset {
     uint64_t clipPoolBytes = 0;                  ///< SuppleAssetDesc
     std::optional<skinning::Reach> ownReach;     ///< made for the first group of a view, if it was not prepared
     std::optional<skinning::Centers> ownCenters; ///< if they were not prepared
+    std::optional<skinning::DeltaMush> ownMush;  ///< the same
     skinning::UpdateFacts updates;               ///< made for the first group with update rates
     std::shared_ptr<const skinning::DriverTable> drivers; ///< made for the first group that asks on the CPU
     std::vector<std::shared_ptr<AssetPiece>> pieces;
@@ -82,6 +86,13 @@ struct Asset {
     [[nodiscard]] std::shared_ptr<const skinning::ClipTable> wholeClips();
     /// For create().
     [[nodiscard]] Status makeSkin(const gpu::Device& device, const std::shared_ptr<const std::vector<uint32_t>>& words);
+    // For makeSkin() and makeSkinning().
+    [[nodiscard]] Status makeTable(const gpu::Device& device, skinning::SkinTableKind kind,
+                                   const skinning::DeformTable& table,
+                                   const std::shared_ptr<const std::vector<uint32_t>>& words);
+    [[nodiscard]] Status findExtra(skinning::SkinExtra extra);
+    /// It had to be built because it was not prepared.
+    void noteLate(const char* what);
     /// Finds or makes the piece of some parts (rising).
     [[nodiscard]] Result<std::shared_ptr<AssetPiece>> pieceOf(const gpu::Device& device,
                                                               const std::vector<uint32_t>& parts);
@@ -100,31 +111,38 @@ struct Asset {
     /// Sees to it that `jiggles` and `cloths` are there, if something is soft. Refuses what takes too much in a step.
     [[nodiscard]] Status makeSoft(const gpu::Device& device);
     [[nodiscard]] bool isSoft() const { return jiggles.count > 0 || cloths.count > 0; }
+    /// Some morph target moves a vertex.
+    [[nodiscard]] bool hasMorphs() const { return skins[0].firstInfluences != 0; }
     /// Some morph weights follow from joints, and move something.
-    [[nodiscard]] bool hasDrivers() const { return firstInfluences != 0 && !character.drivers.empty(); }
+    [[nodiscard]] bool hasDrivers() const { return hasMorphs() && !character.drivers.empty(); }
     /// A group that may read the clips has been created: from now on segments come with frames.
     void startStream();
     /// Sees to it that `drivers` is there, if hasDrivers().
     void makeDrivers();
     /// Sees to it that `updates` is there.
     void measureUpdates();
-    /// Sees to it that what a way of skinning needs is there.
+    /// Sees to it that what a way of skinning needs is there. Refuses cages that delta mush would take too long for.
     [[nodiscard]] Status makeSkinning(const gpu::Device& device, skinning::SkinningMode mode);
     /// The deform table that a way of skinning reads.
-    [[nodiscard]] const gpu::StaticBuffers& deformTable(skinning::SkinningMode mode) const {
-        return skinning::skinningRow(mode).centers ? centered : buffers;
+    [[nodiscard]] const SkinTables& skin(skinning::SkinningMode mode) const {
+        return skins[static_cast<size_t>(skinning::skinningRow(mode).table)];
     }
-    /// Null as long as no group has needed them.
-    [[nodiscard]] const skinning::Centers* centers() const;
-    [[nodiscard]] skinning::SkinnedBounds skinnedBounds(skinning::SkinningMode mode) const { return {mode, centers()}; }
+    /// With what it needs, once some group has needed it.
+    [[nodiscard]] skinning::Skinning skinning(skinning::SkinningMode mode) const;
     /// How far the character reaches in any pose of its clips.
     [[nodiscard]] const skinning::Reach& reach();
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
+    /// The deform tables.
+    template <class F>
+    void forSkins(F&& visit) {
+        for (SkinTables& skin : skins) {
+            visit(skin.buffers);
+        }
+    }
     /// What all groups share, and the tables of those that there have been.
     template <class F>
     void forStatics(F&& visit) {
-        visit(buffers);
-        visit(centered);
+        forSkins(visit);
         visit(clips);
         visit(jiggles.table);
         visit(cloths.table);

@@ -38,7 +38,7 @@ std::optional<SuppleBounds> ClipBounds::of(const cage::Character& character, uin
     if (clip >= character.clips.size() && clip != SUPPLE_BIND_POSE && clip != SUPPLE_REST_POSE) {
         return std::nullopt;
     }
-    const auto [known, isNew] = found_.try_emplace(Key{clip, desc.skinning, desc.margin});
+    const auto [known, isNew] = found_.try_emplace(Key{clip, desc.skinning.mode, desc.margin});
     if (isNew) {
         const skinning::Box box = clip == SUPPLE_BIND_POSE   ? skinning::bindBounds(character, desc)
                                   : clip == SUPPLE_REST_POSE ? skinning::clipBounds(character, nullptr, desc)

@@ -294,8 +294,7 @@ void Group::recordHashes(StageHashes::Recording& recording, bool withSurfaces) c
 
 void Group::addMembers(const GroupShared& shared) {
     addMember(*shared.pairs);
-    addMember(asset_->buffers);
-    addMember(asset_->centered);
+    asset_->forSkins([&](gpu::StaticBuffers& buffers) { addMember(buffers); });
     addMember(asset_->clips);
     addMember(asset_->jiggles.table);
     addMember(asset_->cloths.table);

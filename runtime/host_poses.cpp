@@ -11,7 +11,7 @@ namespace supple::runtime {
 skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mode, uint32_t strideMultiple) {
     const cage::Character& character = asset.character;
     // Weights of targets that move nothing stay on the CPU.
-    const size_t morphs = asset.firstInfluences != 0 ? character.morphs.targets.size() : 0;
+    const size_t morphs = asset.hasMorphs() ? character.morphs.targets.size() : 0;
     skinning::PoseLayout layout = skinning::PoseLayout::of(mode, static_cast<uint32_t>(character.skin.joints.size()),
                                                            static_cast<uint32_t>(morphs));
     layout.stride = (layout.elements() + strideMultiple - 1) / strideMultiple * strideMultiple;
@@ -20,7 +20,7 @@ skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mod
 
 HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers,
                      bool springs)
-    : asset_(&asset), layout_(layout), skinned_(asset.skinnedBounds(layout.mode)) {
+    : asset_(&asset), layout_(layout), skinned_(asset.skinning(layout.mode)) {
     const cage::Character& character = asset.character;
     targetCount_ = character.morphs.targets.size();
     palettes_.resize(size_t{instanceCount} * layout.jointCount);
@@ -355,8 +355,7 @@ std::optional<skinning::Box> HostPoses::boundsOf(uint32_t instance, const skinni
         return std::nullopt;
     }
     const std::span own = std::span(palettes_).subspan(size_t{instance} * layout_.jointCount, layout_.jointCount);
-    const skinning::Box linear = skinning::paletteBounds(reach, own, weightsOf(instance));
-    return skinning::movedBy(glm::dmat4(placement(instance)), skinned_.posed(reach, own, linear));
+    return skinning::movedBy(glm::dmat4(placement(instance)), skinned_.posed(reach, own, weightsOf(instance)));
 }
 
 void HostPoses::swing(uint32_t instance, skinning::InstancePose& pose) {

@@ -56,8 +56,8 @@ Status Playback::create(const Desc& desc) {
     twin_ = skinning::PoseTwin(table, desc.layout, push_.transition);
     transforms_.resize(desc.capacity, glm::mat4(1.0f));
     positions_.resize(desc.capacity, glm::dvec3(0.0));
-    bounds_ = PlayedBounds(desc.asset->character, desc.asset->skinnedBounds(desc.layout.mode), desc.room.modifiers,
-                           desc.capacity);
+    bounds_ = PlayedBounds(desc.asset->character, skinning::SkinnedBounds(desc.asset->skinning(desc.layout.mode)),
+                           desc.room.modifiers, desc.capacity);
     list_ = PoseList(desc.capacity, windowCount(), desc.room);
     if (desc.room.updateRates) {
         laterTwin_ = twin_;

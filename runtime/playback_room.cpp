@@ -94,7 +94,9 @@ PosePush posePushOf(const Asset& asset, const skinning::PoseLayout& layout, cons
     push.endStride = endStride(layout, room);
     push.morphWeights = layout.morphWeights;
     push.shown = UINT32_MAX;
-    push.stepNodes = room.modifiers ? 0 : (room.springs ? kNodeOfSprings : 0) | (room.soft ? kNodeOfSoft : 0);
+    // Delta mush has joints for a vertex that the vertex itself does not follow.
+    const bool all = room.modifiers || skinning::isMush(layout.mode);
+    push.stepNodes = all ? 0 : (room.springs ? kNodeOfSprings : 0) | (room.soft ? kNodeOfSoft : 0);
     push.stepNodes |= room.soft ? kStepsHavePoses : 0;
     push.stateBefore = playedStride(table, layout, room);
     push.springs = room.springs ? table.springs : 0;

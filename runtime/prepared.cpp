@@ -57,7 +57,7 @@ std::shared_ptr<Prepared> Prepared::of(cage::Character character) {
 }
 
 void Prepared::follow() {
-    deform = skinning::buildDeformTable(character.cage, character.weights, character.morphs);
+    deform = skinning::buildDeformTable(character, {});
     rig = skinning::makeRig(character);
     for (size_t part = 0; part < character.parts.size(); ++part) {
         parts.push_back(summaryOf(character, part));

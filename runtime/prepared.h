@@ -6,7 +6,8 @@
 #include "cage/piece.h"
 #include "skinning/centers.h"
 #include "skinning/clip_table.h"
-#include "skinning/deform_kernels.h"
+#include "skinning/deform_table.h"
+#include "skinning/delta_mush.h"
 #include "skinning/joints.h"
 #include "skinning/layers.h"
 #include "skinning/reach.h"
@@ -52,6 +53,7 @@ struct Prepared {
     std::optional<skinning::ClipTable> clips; ///< if a group is to play on the device
     std::optional<skinning::Reach> reach;     ///< if a group is to be of a view
     std::optional<skinning::Centers> centers; ///< if a group is to be skinned about them
+    std::optional<skinning::DeltaMush> mush;  ///< if a group is to be skinned by it
     std::vector<std::shared_ptr<const PreparedPiece>> pieces;
     std::vector<std::shared_ptr<const PreparedTables>> tables;
     /// How the level of an instance is measured, if a group of a view is to have the tables.

@@ -1,7 +1,9 @@
 #include "skinning/clip_bounds.h"
 
 #include "cage/solved_driver.h"
+#include "skinning/centers.h"
 #include "skinning/chord.h"
+#include "skinning/delta_mush.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +19,8 @@ constexpr int kMostHalvings = 8;
 constexpr double kProductSlack = 1e-6, kExtentSlack = 2e-5;
 /// Of the coefficients of a driver: what is off where they cancel out.
 constexpr double kDriverSlack = 1e-5;
+/// No smoothed weight is as small.
+constexpr double kLeastWeight = 1e-6;
 
 /// Finds the box of intervals, one after the other.
 class BoundsFinder {
@@ -28,11 +32,7 @@ public:
         inverseBinds_.assign(skin.inverseBinds.begin(), skin.inverseBinds.end());
         reach_.resize(skin.joints.size(), -1.0);
         for (size_t v = 0; v < positions_.size(); ++v) {
-            forInfluences(v, [&](const cage::Influence& influence) {
-                local_.push_back(glm::dvec3(inverseBinds_[influence.joint] * glm::dvec4(positions_[v], 1.0)));
-                distances_.push_back(glm::length(local_.back()));
-                reach_[influence.joint] = std::max(reach_[influence.joint], distances_.back());
-            });
+            takeVertex(v);
         }
         joints_.resize(skin.joints.size());
         placed_.resize(positions_.size());
@@ -114,16 +114,47 @@ private:
         return sum;
     }
 
-    template <class F>
-    void forInfluences(size_t vertex, F&& visit) const {
-        const cage::SkinWeights& weights = character_.weights;
-        for (uint32_t i = weights.starts[vertex]; i < weights.starts[vertex + 1]; ++i) {
-            visit(weights.influences[i]);
+    /// What joints move for a vertex: the vertex itself or, if delta mush smooths it, the means of what each moves of
+    /// its neighborhood. The heaviest joint has what the others leave.
+    void takeVertex(size_t vertex) {
+        const auto take = [&](uint32_t joint, double weight, const glm::dvec3& point) {
+            influences_.push_back({joint, weight});
+            local_.push_back(glm::dvec3(inverseBinds_[joint] * glm::dvec4(point, 1.0)));
+            distances_.push_back(glm::length(local_.back()));
+            reach_[joint] = std::max(reach_[joint], distances_.back());
+        };
+        if (isSmoothed(vertex)) {
+            const DeltaMush& mush = *desc_.skinning.mush;
+            const glm::dvec3 place(mush.places[vertex]);
+            double left = 1.0;
+            glm::dvec3 offset(0.0);
+            for (uint32_t i = mush.starts[vertex] + 1; i < mush.starts[vertex + 1]; ++i) {
+                const MushInfluence& own = mush.influences[i];
+                const double weight = static_cast<double>(own.weight);
+                take(own.joint, weight, place + glm::dvec3(own.offset) / std::max(weight, kLeastWeight));
+                left -= weight;
+                offset -= glm::dvec3(own.offset);
+            }
+            take(mush.influences[mush.starts[vertex]].joint, left, place + offset / std::max(left, kLeastWeight));
+        } else {
+            const cage::SkinWeights& weights = character_.weights;
+            for (uint32_t i = weights.starts[vertex]; i < weights.starts[vertex + 1]; ++i) {
+                const cage::Influence& own = weights.influences[i];
+                take(own.joint, static_cast<double>(own.weight), positions_[vertex]);
+            }
         }
+        starts_.push_back(static_cast<uint32_t>(influences_.size()));
+    }
+
+    /// Whether delta mush makes more of it than linear skinning does.
+    [[nodiscard]] bool isSmoothed(size_t vertex) const {
+        const DeltaMush* const mush = desc_.skinning.mush;
+        return isMush(desc_.skinning.mode) && mush->places[vertex].w != 0.0f &&
+               mush->starts[vertex + 1] - mush->starts[vertex] > 1;
     }
 
     /// Vertices of several joints turn by their rotations.
-    [[nodiscard]] bool turns() const { return desc_.skinning != SkinningMode::linear; }
+    [[nodiscard]] bool turns() const { return desc_.skinning.mode != SkinningMode::linear; }
 
     [[nodiscard]] double worstError() const {
         double worst = 0.0;
@@ -184,9 +215,10 @@ private:
         }
     }
 
-    [[nodiscard]] ChordVector moved(size_t vertex, uint32_t influence, uint32_t joint) const {
+    [[nodiscard]] ChordVector moved(size_t vertex, uint32_t influence) const {
+        const uint32_t joint = influences_[influence].joint;
         const ChordNode& place = joints_[joint].place;
-        if (!morphs_) {
+        if (!morphs_ || isSmoothed(vertex)) {
             return place.linear * ChordVector{{local_[influence], local_[influence]}, 0.0} + place.translation;
         }
         const glm::dmat4& bind = inverseBinds_[joint];
@@ -198,36 +230,47 @@ private:
 
     void addVertex(size_t vertex, Box& box) {
         moved_.clear();
-        uint32_t influence = character_.weights.starts[vertex];
         glm::dvec3 ends[2]{glm::dvec3(0.0), glm::dvec3(0.0)};
         double error = 0.0;
-        forInfluences(vertex, [&](const cage::Influence& of) {
-            const ChordVector at = moved(vertex, influence++, of.joint);
-            const double weight = static_cast<double>(of.weight);
+        for (uint32_t i = starts_[vertex]; i < starts_[vertex + 1]; ++i) {
+            const auto& [joint, weight] = influences_[i];
+            const ChordVector at = moved(vertex, i);
             ends[0] += weight * at.ends[0];
             ends[1] += weight * at.ends[1];
             error += weight * at.error;
             if (turns()) {
-                moved_.push_back({at, weight, of.joint});
+                moved_.push_back({at, weight, joint});
             }
-        });
-        error += moved_.size() < 2                                   ? 0.0
-                 : desc_.skinning == SkinningMode::centersOfRotation ? centerError(vertex)
-                                                                     : dualQuaternionError();
-        take(ends, error, box);
+        }
+        take(ends, error + (moved_.size() < 2 ? 0.0 : beyondLinear(vertex)), box);
+    }
+
+    /// How far a vertex of several joints may be from the mean of what they make of it.
+    [[nodiscard]] double beyondLinear(size_t vertex) const {
+        switch (desc_.skinning.mode) {
+        case SkinningMode::linear:
+            return 0.0;
+        case SkinningMode::dualQuaternion:
+            return dualQuaternionError();
+        case SkinningMode::centersOfRotation:
+            return centerError(vertex);
+        case SkinningMode::deltaMush:
+        case SkinningMode::deltaMushLight:
+            return isSmoothed(vertex) ? smoothedLength(vertex) : 0.0;
+        }
+        return 0.0;
     }
 
     /// All vertices, linearly skinned and not morphed: the same as addVertex() without what is not needed. Where an
     /// interval begins at which the last one ended, they are known there.
     void addPlain(double first, double last, Box& box) {
         const bool known = first == reached_ && !steps_;
-        const cage::SkinWeights& weights = character_.weights;
         for (size_t v = 0; v < positions_.size(); ++v) {
             glm::dvec3 ends[2]{known ? placed_[v] : glm::dvec3(0.0), glm::dvec3(0.0)};
             double error = 0.0;
-            for (uint32_t i = weights.starts[v]; i < weights.starts[v + 1]; ++i) {
-                const ChordNode& place = joints_[weights.influences[i].joint].place;
-                const double weight = static_cast<double>(weights.influences[i].weight);
+            for (uint32_t i = starts_[v]; i < starts_[v + 1]; ++i) {
+                const auto& [joint, weight] = influences_[i];
+                const ChordNode& place = joints_[joint].place;
                 for (int end = known ? 1 : 0; end < 2; ++end) {
                     ends[end] += weight * (place.linear.ends[end] * local_[i] + place.translation.ends[end]);
                 }
@@ -289,22 +332,33 @@ private:
     /// SkinnedBounds::grown(). Rotations differ by twice the sine of half their angle, and a blend of quaternions is no
     /// farther from one of them than the others are.
     [[nodiscard]] double centerError(size_t vertex) const {
-        const glm::vec4& center = desc_.centers->points[vertex];
-        if (center.w == 0.0f) {
-            return 0.0;
-        }
+        const glm::vec4& center = desc_.skinning.centers->points[vertex];
+        return center.w == 0.0f ? 0.0 : 2.0 * sineOfBlend() * sizeOfMoved() * armFrom(center, vertex);
+    }
+
+    /// Delta mush adds the way from the smoothed place to the vertex, stretched by the joints and turned: that is no
+    /// longer than the way times the mean of the joints' sizes, whatever the rotation is.
+    [[nodiscard]] double smoothedLength(size_t vertex) const {
+        return sizeOfMoved() * armFrom(desc_.skinning.mush->places[vertex], vertex);
+    }
+
+    [[nodiscard]] double armFrom(const glm::vec4& center, size_t vertex) const {
         double arm = 0.0;
         for (int end = 0; end < 2; ++end) {
             const glm::dvec3& rest = morphs_ ? morphed_[end][vertex] : positions_[vertex];
             arm = std::max(arm, glm::distance(rest, glm::dvec3(center)));
         }
-        arm += morphs_ ? morphErrors_[vertex] : 0.0;
+        return arm + (morphs_ ? morphErrors_[vertex] : 0.0);
+    }
+
+    /// By how much joints stretch a way, on the mean.
+    [[nodiscard]] double sizeOfMoved() const {
         double size = 0.0;
         for (const Moved& own : moved_) {
             const ChordMatrix& linear = joints_[own.joint].place.linear;
             size += own.weight * (linear.size + linear.error) * normOf(glm::dmat3(inverseBinds_[own.joint]));
         }
-        return 2.0 * sineOfBlend() * size * arm;
+        return size;
     }
 
     /// How far a vertex that dual quaternions blend may be from where linear skinning takes it (shaders/deform).
@@ -336,6 +390,12 @@ private:
     ClipBoundsDesc desc_;
     ChordPoser poser_;
     ChordPose pose_;
+    struct Influence {
+        uint32_t joint = 0;
+        double weight = 0.0;
+    };
+    std::vector<uint32_t> starts_{0}; ///< by vertex: of influences_
+    std::vector<Influence> influences_;
     std::vector<glm::dvec3> positions_, local_; ///< of the cage; by influence, in the space of the joint
     std::vector<glm::dmat4> inverseBinds_;
     std::vector<double> distances_;  ///< by influence: the length of local_

@@ -3,15 +3,13 @@
 
 #include "cage/character.h"
 #include "skinning/box.h"
-#include "skinning/centers.h"
 #include "skinning/skinning_mode.h"
 
 namespace supple::skinning {
 
 /// What a box is to hold.
 struct ClipBoundsDesc {
-    SkinningMode skinning = SkinningMode::linear;
-    const Centers* centers = nullptr; ///< of centers of rotation
+    Skinning skinning;
     /// How far a surface may lie outside the box that its cage has at a time, as a part of that box's size.
     double margin = 0.0;
     /// Intervals with larger errors are halved, as a part of the character's extent. Whatever it is, the box holds.
@@ -32,6 +30,7 @@ struct ClipBoundsDesc {
 ///     the ends, and norms are the larger of those at the ends: on a chord they are not larger.
 ///   - a skinned vertex: a mean of products, with constant weights: within the mean of their errors. Dual quaternions
 ///     and centers of rotation add what they may differ from linear skinning, see dualQuaternionError(), centerError().
+///     Delta mush is such a mean, of places of its own, and a vector of bounded length: see smoothedLength().
 ///
 /// So the box of both ends, larger by the error, holds the vertex between them. Errors shrink with the square of the
 /// time between t0 and t1, which is halved until they are a small part of the character's extent.

@@ -1,11 +1,10 @@
 #include "skinning/deform_kernels.h"
 
 #include "shaders/deform_deform_comp.h"
+#include "shaders/deform_deform_comp_MUSH.h"
 #include "shaders/deform_gather_comp.h"
 #include "shaders/shared/specialization.h"
-#include "skinning/bits.h"
 
-#include <algorithm>
 #include <cstring>
 
 namespace supple::skinning {
@@ -17,38 +16,6 @@ static_assert(sizeof(DeformPush) <= gpu::kPushConstantBytes);
 static_assert(sizeof(Affine) == 48);
 
 constexpr size_t kElementBytes = 16;
-
-/// The displacements of every vertex, target by target.
-struct Displacements {
-    struct One {
-        uint32_t target = 0;
-        glm::vec3 delta{0.0f};
-    };
-    std::vector<uint32_t> starts; ///< vertexCount + 1 entries
-    std::vector<One> list;
-};
-
-Displacements displacementsOf(uint32_t vertexCount, const cage::Morphs& morphs) {
-    Displacements result;
-    result.starts.assign(size_t{vertexCount} + 1, 0);
-    for (const cage::MorphTarget& target : morphs.targets) {
-        for (const uint32_t vertex : target.vertices) {
-            ++result.starts[vertex + 1];
-        }
-    }
-    for (uint32_t v = 0; v < vertexCount; ++v) {
-        result.starts[v + 1] += result.starts[v];
-    }
-    result.list.resize(result.starts.back());
-    std::vector<uint32_t> next(result.starts.begin(), result.starts.end() - 1);
-    for (uint32_t t = 0; t < morphs.targets.size(); ++t) {
-        const cage::MorphTarget& target = morphs.targets[t];
-        for (size_t i = 0; i < target.vertices.size(); ++i) {
-            result.list[next[target.vertices[i]]++] = {t, target.deltas[i]};
-        }
-    }
-    return result;
-}
 
 /// transform * joint, both affine.
 Affine placed(const glm::mat4& transform, const Affine& joint) {
@@ -62,51 +29,6 @@ Affine placed(const glm::mat4& transform, const Affine& joint) {
 }
 
 } // namespace
-
-DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights, const cage::Morphs& morphs,
-                             std::span<const glm::vec4> centers) {
-    const uint32_t vertexCount = cage.vertexCount();
-    const Displacements displacements = displacementsOf(vertexCount, morphs);
-    std::vector<uint32_t> vertices, runs, firstInfluences;
-    vertices.reserve(4 * (size_t{vertexCount} + 1));
-    runs.reserve(4 * displacements.list.size() + 2 * weights.influences.size());
-    const auto nextElement = [&] { return static_cast<uint32_t>(vertexCount + 1 + runs.size() / 4); };
-    std::vector<cage::Influence> own;
-    for (uint32_t v = 0; v < vertexCount; ++v) {
-        const glm::vec3& p = cage.positions[v];
-        vertices.insert(vertices.end(), {bits(p.x), bits(p.y), bits(p.z), nextElement()});
-        for (uint32_t i = displacements.starts[v]; i < displacements.starts[v + 1]; ++i) {
-            const auto& [target, delta] = displacements.list[i];
-            runs.insert(runs.end(), {target, bits(delta.x), bits(delta.y), bits(delta.z)});
-        }
-        firstInfluences.push_back(nextElement());
-        own.assign(weights.influences.begin() + weights.starts[v], weights.influences.begin() + weights.starts[v + 1]);
-        const auto heaviest =
-            std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.weight < b.weight; });
-        std::rotate(own.begin(), heaviest, heaviest + 1);
-        for (size_t i = 0; i < own.size(); i += 2) {
-            const cage::Influence second = i + 1 < own.size() ? own[i + 1] : cage::Influence{own[i].joint, 0.0f};
-            runs.insert(runs.end(), {own[i].joint, bits(own[i].weight), second.joint, bits(second.weight)});
-        }
-    }
-    vertices.insert(vertices.end(), {0u, 0u, 0u, nextElement()});
-
-    DeformTable table;
-    table.words = std::move(vertices);
-    table.words.insert(table.words.end(), runs.begin(), runs.end());
-    if (!displacements.list.empty()) {
-        table.firstInfluences = static_cast<uint32_t>(table.words.size() / 4);
-        table.words.insert(table.words.end(), firstInfluences.begin(), firstInfluences.end());
-        table.words.resize((table.words.size() + 3) / 4 * 4, 0u);
-    }
-    if (!centers.empty()) {
-        table.firstCenter = static_cast<uint32_t>(table.words.size() / 4);
-        for (const glm::vec4& center : centers) {
-            table.words.insert(table.words.end(), {bits(center.x), bits(center.y), bits(center.z), bits(center.w)});
-        }
-    }
-    return table;
-}
 
 PoseLayout PoseLayout::of(SkinningMode mode, uint32_t jointCount, uint32_t morphCount) {
     PoseLayout layout{mode, jointCount, morphCount, 0, 0};
@@ -164,7 +86,8 @@ Result<DeformKernels> DeformKernels::create(const gpu::Device& device, gpu::Pipe
 Result<gpu::Kernel> DeformKernels::make(SkinningMode mode, bool morphs) const {
     const uint32_t t = uint32_t{morphs};
     const gpu::Constant constants[] = {{kMorphsConstant, t}, {kSkinningConstant, static_cast<uint32_t>(mode)}};
-    return pipelines_->get(layout_, deform_deform_comp, constants, skinningRow(mode).kernels[t]);
+    const gpu::Spirv& code = isMush(mode) ? deform_deform_comp_MUSH : deform_deform_comp;
+    return pipelines_->get(layout_, code, constants, skinningRow(mode).kernels[t]);
 }
 
 Result<gpu::Kernel> DeformKernels::makeGather() const {

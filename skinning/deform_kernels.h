@@ -1,11 +1,12 @@
 // The deform pass: morph targets, then skinning of the control cage in compute, with any number of targets and of
-// influences a vertex: linear, by dual quaternions, or about centers of rotation.
+// influences a vertex, by any way of skinning.
 #pragma once
 
 #include "cage/character.h"
 #include "gpu/dispatches.h"
 #include "gpu/pipelines.h"
 #include "shaders/shared/deform.h"
+#include "skinning/deform_table.h"
 #include "skinning/pose.h"
 #include "skinning/skinning_mode.h"
 
@@ -15,16 +16,6 @@
 #include <vector>
 
 namespace supple::skinning {
-
-/// Rest positions, displacements and influences in the layout of shaders/shared/deform.h.
-struct DeformTable {
-    std::vector<uint32_t> words;  ///< four an element
-    uint32_t firstInfluences = 0; ///< element where the first influences are listed; 0: no target moves a vertex
-    uint32_t firstCenter = 0;     ///< element where the centers are listed; 0: there are none
-};
-/// `centers`: Centers::points; empty: none.
-[[nodiscard]] DeformTable buildDeformTable(const cage::Cage& cage, const cage::SkinWeights& weights,
-                                           const cage::Morphs& morphs, std::span<const glm::vec4> centers = {});
 
 /// Where things lie in an instance's pose, in vec4 elements (shaders/shared/deform.h).
 struct PoseLayout {

@@ -1,7 +1,7 @@
 #include "skinning/deform_twin.h"
 
 #include "shaders/shared/deform.h"
-#include "shaders/shared/vectors.h"
+#include "shaders/shared/fitted_rotation.h"
 
 namespace supple::twin {
 
@@ -16,6 +16,7 @@ struct DeformCode {
     DeformPush push;
     bool kMorphs = false;
     uint kSkinning = kLinearSkinning;
+    static constexpr bool kMush = true;
 
     [[nodiscard]] uvec4 table(uint i) const {
         const uint32_t* const w = tableWords + 4 * size_t{i};

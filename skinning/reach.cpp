@@ -194,6 +194,9 @@ private:
             }
             reach_.deltas.push_back(most);
         }
+        for (const double morphed : morphed_) {
+            reach_.morphed = std::max(reach_.morphed, morphed);
+        }
     }
 
     void takeVertices() {

@@ -32,6 +32,7 @@ struct Reach {
     /// By joint, in the bind pose: the box of the vertices that follow it; empty (low > high) if none does.
     std::vector<Box> joints;
     std::vector<double> deltas; ///< by morph target: the longest displacement in the bind pose
+    double morphed = 0.0;       ///< how far targets take a vertex in those poses, in the bind pose, at most
     std::vector<double> sizes;  ///< by joint: the norm of its matrix with its inverse bind in those poses, at most
 };
 [[nodiscard]] Reach reachOf(const cage::Character& character);

@@ -1,7 +1,6 @@
 // By how much cages may leave the boxes that hold them linearly skinned: an account per way of skinning.
 #pragma once
 
-#include "skinning/centers.h"
 #include "skinning/reach.h"
 #include "skinning/skinning_mode.h"
 
@@ -13,21 +12,23 @@ namespace supple::skinning {
 class SkinnedBounds {
 public:
     SkinnedBounds() = default; ///< linear
-    /// `centers`: of centers of rotation. They must outlive this.
-    SkinnedBounds(SkinningMode mode, const Centers* centers) : mode_(mode), centers_(centers) {}
+    /// What the way of skinning needs must outlive this.
+    explicit SkinnedBounds(const Skinning& skinning);
 
     /// Of a box that holds the cages in poses that layers make of the clips (Reach::blended).
     [[nodiscard]] Box reached(const Reach& reach, const Box& linear) const;
-    /// Of a box that holds the cages that the palette makes (paletteBounds).
-    [[nodiscard]] Box posed(const Reach& reach, std::span<const Affine> palette, const Box& linear) const;
+    /// Of the cages that a palette makes. `morphWeights`: one per target.
+    [[nodiscard]] Box posed(const Reach& reach, std::span<const Affine> palette,
+                            std::span<const float> morphWeights) const;
 
 private:
-    /// `sizeOf(joint)`: the norm of its matrix, at most.
+    /// `sizeOf(joint)`: the norm of its matrix, at most; `morphed`: how far morph targets take a vertex, at most.
     template <class F>
-    [[nodiscard]] Box grown(const Reach& reach, const Box& linear, F&& sizeOf) const;
+    [[nodiscard]] Box grown(const Reach& reach, const Box& linear, double morphed, F&& sizeOf) const;
 
     SkinningMode mode_ = SkinningMode::linear;
-    const Centers* centers_ = nullptr;
+    std::span<const double> arms_; ///< by joint; none: the mode has no centers
+    double share_ = 0.0;           ///< how far a vertex of an arm of 1 may be from where linear skinning takes it
 };
 
 } // namespace supple::skinning

@@ -4,7 +4,9 @@
 #include "shaders/shared/deform.h"
 #include "shaders/shared/specialization.h"
 #include "shaders/soft_cloth_comp.h"
+#include "shaders/soft_cloth_comp_MUSH.h"
 #include "shaders/soft_jiggle_comp.h"
+#include "shaders/soft_jiggle_comp_MUSH.h"
 
 namespace supple::skinning {
 
@@ -17,12 +19,13 @@ static_assert(16 * (kMostClothVertices + 2 * kMostClothColliders) + 4 * kClothSu
               "what every device has of workgroup memory");
 
 struct SoftRow {
-    const gpu::Spirv& spirv;
+    const gpu::Spirv &spirv, &mush; ///< the second for delta mush
     const char* name;
     bool perWorkgroup; ///< a workgroup takes an item of an instance, else a lane does
 };
 const SoftRow& rowOf(SoftKind kind) {
-    static const SoftRow rows[] = {{soft_jiggle_comp, "supple jiggle", false}, {soft_cloth_comp, "supple cloth", true}};
+    static const SoftRow rows[] = {{soft_jiggle_comp, soft_jiggle_comp_MUSH, "supple jiggle", false},
+                                   {soft_cloth_comp, soft_cloth_comp_MUSH, "supple cloth", true}};
     return rows[static_cast<size_t>(kind)];
 }
 
@@ -53,7 +56,8 @@ Result<SoftKernels> SoftKernels::create(const gpu::Device& device, gpu::Pipeline
 Result<gpu::Kernel> SoftKernels::make(SkinningMode mode, bool morphs) const {
     const gpu::Constant constants[] = {{kMorphsConstant, uint32_t{morphs}},
                                        {kSkinningConstant, static_cast<uint32_t>(mode)}};
-    return pipelines_->get(layout_, rowOf(kind_).spirv, constants, rowOf(kind_).name);
+    const SoftRow& row = rowOf(kind_);
+    return pipelines_->get(layout_, isMush(mode) ? row.mush : row.spirv, constants, row.name);
 }
 
 Status SoftKernels::prepare(SkinningMode mode, bool morphs) {

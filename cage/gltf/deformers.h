@@ -2,16 +2,28 @@
 #pragma once
 
 #include "cage/character.h"
-#include "cage/gltf/json.h"
-#include "cage/message.h"
+#include "cage/gltf/document.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace supple::cage::gltf {
 
-/// `skinning`, if the mesh says it. Warns of ways of skinning that there are not here. Throws Refusal.
-[[nodiscard]] std::optional<SkinningMode> readSkinningMode(const Json& mesh, const std::string& element,
-                                                           Warnings& warnings);
+/// `skinning`, if the mesh says it. Throws Refusal.
+[[nodiscard]] std::optional<SkinningMode> readSkinningMode(const Json& mesh, const std::string& element);
+
+/// `smoothing` of delta mush, if the mesh says it.
+struct SmoothingFields {
+    std::optional<Smoothing> numbers;
+    std::string mask; ///< the attribute that has it; empty: there is none
+};
+/// Leaves out what is wrong, with a warning.
+[[nodiscard]] SmoothingFields readSmoothing(const Document& document, size_t meshIndex);
+
+/// Appends the mask of a primitive's `count` vertices, which begin at `firstVertex`: 1 where it has none. Weights that
+/// cannot be read are left out, with a warning.
+void appendMushMask(const Document& document, int accessor, size_t firstVertex, size_t count, const std::string& name,
+                    std::vector<float>& mask);
 
 } // namespace supple::cage::gltf

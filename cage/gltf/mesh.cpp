@@ -83,6 +83,9 @@ public:
         }
         findCageNumbers(mesh, numbers);
         soft_ = SoftReader(document_, meshIndex);
+        const SmoothingFields smoothing = readSmoothing(document_, meshIndex);
+        out_.smoothing = smoothing.numbers;
+        mask_ = smoothing.mask;
         positionAccessors_.assign(numbers.size(), -1);
         std::vector<uint8_t> isRead(numbers.size(), 0);
         for (size_t i = 0; i < numbers.size(); ++i) {
@@ -101,20 +104,26 @@ public:
                 [&] { out_.merges = readManifold(document_, meshIndex, out_, positionAccessors_, warnings_); });
         }
         document_.leniency->leaveOut(
-            [&] { out_.skinning = readSkinningMode(document_.meshes[meshIndex], out_.element, warnings_); });
+            [&] { out_.skinning = readSkinningMode(document_.meshes[meshIndex], out_.element); });
         SoftReader::Lists soft = std::move(soft_).finish(document_);
         out_.jiggles = std::move(soft.jiggles);
         out_.cloths = std::move(soft.cloths);
         out_.jiggleWeights = std::move(soft.jiggleWeights);
         out_.clothWeights = std::move(soft.clothWeights);
+        document_.leniency->leaveOut([&] {
+            if (!mask_.empty() && out_.mushMask.empty()) {
+                refuse(out_.element + " SUPPLE_deformers smoothing mask", "no primitive has " + cage::quoted(mask_));
+            }
+        });
         readExtrasCreases(document_.meshes[meshIndex], isCounted_, out_, warnings_);
         out_.weights.report(out_.element + " WEIGHTS", warnings_);
         return std::move(out_);
     }
 
 private:
-    /// Accessors of position, cage numbers, joints, weights, morph targets and what is painted: what makes a vertex.
-    using Stream = std::tuple<int, int, std::vector<int>, std::vector<int>, std::vector<int>, std::vector<int>>;
+    /// Accessors of position, cage numbers, joints, weights, morph targets, what is painted and the mask: what makes a
+    /// vertex.
+    using Stream = std::tuple<int, int, std::vector<int>, std::vector<int>, std::vector<int>, std::vector<int>, int>;
 
     /// Makes an entry of each primitive that has triangles. Returns their numbers.
     std::vector<size_t> findDrawn(const file::Mesh& mesh) {
@@ -248,7 +257,13 @@ private:
         const auto number = static_cast<size_t>(&primitive - out_.primitives.data());
         const int cageNumbers = cageNumbers_[number];
         const std::optional<CageExtension>& extension = extensions_[number];
-        const Stream stream{position->second, cageNumbers, sets.joints, sets.weights, targets, soft_.accessorsOf(from)};
+        const Stream stream{position->second,
+                            cageNumbers,
+                            sets.joints,
+                            sets.weights,
+                            targets,
+                            soft_.accessorsOf(from),
+                            paintedAccessor(from, mask_)};
         const auto known = streams_.find(stream);
         primitive.firstVertex = known != streams_.end() ? known->second : static_cast<uint32_t>(out_.positions.size());
         const size_t count = accessorCount(document_, position->second);
@@ -351,7 +366,7 @@ private:
 
     /// All of the vertices or, if it throws, none.
     void readVertices(const Stream& stream, const SkinSets& sets, size_t count, const std::string& element) {
-        const auto& [position, cageNumbers, joints, weights, targets, painted] = stream;
+        const auto& [position, cageNumbers, joints, weights, targets, painted, mask] = stream;
         const std::vector<glm::vec3> positions = readPositions(position, count, element);
         const Displacements displacements = morphReader_.read(document_, targets, count, element);
         std::vector<uint32_t> numbers;
@@ -367,6 +382,7 @@ private:
             appendWeights(document_, sets, count, binding_.skinJoints(), element, out_.weights);
         }
         soft_.append(document_, painted, out_.positions.size(), count, element);
+        appendMushMask(document_, mask, out_.positions.size(), count, element + " " + mask_, out_.mushMask);
         out_.positions.insert(out_.positions.end(), positions.begin(), positions.end());
         out_.morphs.append(count, displacements);
         out_.cageNumbers.insert(out_.cageNumbers.end(), numbers.begin(), numbers.end());
@@ -454,6 +470,7 @@ private:
     std::vector<int> positionAccessors_;                   ///< by primitive
     MorphReader morphReader_;
     SoftReader soft_;
+    std::string mask_;                   ///< the attribute with the mask of delta mush; empty: there is none
     std::vector<int> cageNumbers_;       ///< per primitive: the accessor that numbers its cage vertices, or -1
     bool isNumberingLeftOut_ = false;    ///< vertices that have no number are among those that should
     bool isCounted_ = true;              ///< no primitive that is drawn, or may be, was left out with its vertices

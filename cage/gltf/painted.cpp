@@ -15,17 +15,29 @@ std::string readAttribute(const Json& from, const std::string& place) {
     if (!from.isObject()) {
         refuse(place, "not an object");
     }
-    std::string name = stringMember(from, "weights", place);
+    std::string name = paintedName(from, "weights", place);
     if (name.empty()) {
         refuse(place, "weights is missing");
-    }
-    if (name.front() != '_') {
-        refuse(place + " weights", cage::quoted(name) + " is no name of an application's attribute: it has no _");
     }
     return name;
 }
 
-std::vector<float> readWeights(const Document& document, int accessor, size_t count, const std::string& name) {
+} // namespace
+
+std::string paintedName(const Json& from, const char* key, const std::string& element) {
+    std::string name = stringMember(from, key, element);
+    if (!name.empty() && name.front() != '_') {
+        refuse(element + " " + key, cage::quoted(name) + " is no name of an application's attribute: it has no _");
+    }
+    return name;
+}
+
+int paintedAccessor(const file::Primitive& primitive, const std::string& name) {
+    const auto found = primitive.attributes.find(name);
+    return !name.empty() && found != primitive.attributes.end() ? found->second : -1;
+}
+
+std::vector<float> readPaintedWeights(const Document& document, int accessor, size_t count, const std::string& name) {
     checkVertexCount(document, accessor, count, name);
     std::vector<float> weights =
         readFloats(document, accessor, file::kScalar, kFloat | kNormalizedU8 | kNormalizedU16, name);
@@ -36,8 +48,6 @@ std::vector<float> readWeights(const Document& document, int accessor, size_t co
     }
     return weights;
 }
-
-} // namespace
 
 std::vector<Painted> readPainted(const Document& document, size_t meshIndex, const char* key, size_t most,
                                  const std::function<void(const Json&, const std::string&)>& read) {
@@ -71,8 +81,7 @@ std::vector<Painted> readPainted(const Document& document, size_t meshIndex, con
 
 void findPainted(const file::Primitive& primitive, std::span<const Painted> painted, std::vector<int>& accessors) {
     for (const Painted& own : painted) {
-        const auto found = primitive.attributes.find(own.weights);
-        accessors.push_back(found != primitive.attributes.end() ? found->second : -1);
+        accessors.push_back(paintedAccessor(primitive, own.weights));
     }
 }
 
@@ -85,7 +94,7 @@ void appendPaintedWeights(const Document& document, std::span<const int> accesso
         std::vector<float> own;
         if (accessors[k] < 0 || !document.leniency->leaveOut([&] {
                 document.memory->take(count, sizeof(float) + sizeof(PaintedWeight), element);
-                own = readWeights(document, accessors[k], count, element + " " + painted[k].weights);
+                own = readPaintedWeights(document, accessors[k], count, element + " " + painted[k].weights);
             })) {
             continue;
         }

@@ -12,6 +12,15 @@
 
 namespace supple::cage::gltf {
 
+/// Weights from 0 to 1, one a vertex, of an attribute that `name` calls. Throws Refusal.
+[[nodiscard]] std::vector<float> readPaintedWeights(const Document& document, int accessor, size_t count,
+                                                    const std::string& name);
+/// The name of an attribute of weights that are painted, which must begin with _. Throws Refusal.
+[[nodiscard]] std::string paintedName(const Json& from, const char* key, const std::string& element);
+
+/// The accessor of a primitive that has an attribute, or -1.
+[[nodiscard]] int paintedAccessor(const file::Primitive& primitive, const std::string& name);
+
 /// An entry: the vertex attribute that has its weights, and what messages call it.
 struct Painted {
     std::string weights, place;

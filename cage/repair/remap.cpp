@@ -115,6 +115,9 @@ private:
             if (!weights_.cloths.empty()) {
                 mapped.cloths.push_back(weights_.cloths[source]);
             }
+            if (!weights_.mushMask.empty()) {
+                mapped.mushMask.push_back(weights_.mushMask[source]);
+            }
         }
         weights_ = std::move(mapped);
     }

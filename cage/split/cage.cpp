@@ -314,6 +314,9 @@ void fillMotion(const Mesh& mesh, PartCage& out) {
         if (!mesh.clothWeights.empty()) {
             out.weights.cloths.push_back(mesh.clothWeights[out.cage.sourceVertices[i]]);
         }
+        if (!mesh.mushMask.empty()) {
+            out.weights.mushMask.push_back(mesh.mushMask[out.cage.sourceVertices[i]]);
+        }
     }
     out.jiggles = mesh.jiggles;
     out.cloths = mesh.cloths;
@@ -421,6 +424,7 @@ void buildCage(const Mesh& mesh, Pairing pairing, PartCage& out, Leniency& lenie
     out.part.polygonSource = faces.source;
     out.part.weldSource = welded.source;
     out.part.skinning = mesh.skinning;
+    out.part.smoothing = mesh.smoothing;
     for (const Primitive& primitive : mesh.primitives) { // the first that says anything
         out.part.uvMode = out.part.uvMode ? out.part.uvMode : primitive.uvMode;
         out.part.madeFor = out.part.madeFor ? out.part.madeFor : primitive.madeFor;

@@ -83,6 +83,7 @@ struct Mesh {
     std::vector<Cloth> cloths; ///< with colliders by the numbers of the file
     // Per vertex; or empty: none is painted.
     std::vector<PaintedWeight> jiggleWeights, clothWeights;
+    std::vector<float> mushMask;       ///< per vertex; or empty: delta mush smooths them wholly
     std::vector<uint32_t> cageNumbers; ///< per vertex, where the source numbers cage vertices; else empty
     WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers
     /// Vertices that are one, where the source lists these pairs and no cage numbers (WeldSource::meshManifold).
@@ -90,6 +91,7 @@ struct Mesh {
     std::vector<Primitive> primitives; ///< at least one
     std::optional<LooseSharpList> creases, corners;
     std::optional<SkinningMode> skinning;
+    std::optional<Smoothing> smoothing;
 };
 
 } // namespace supple::cage::split

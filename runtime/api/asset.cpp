@@ -304,7 +304,7 @@ SuppleResult suppleGetGroupClipBounds(SuppleContext handle, SuppleGroup group, u
         }
         return clipBounds(
             context, kHere, found.asset(), clip,
-            {found.instances().skinning(), found.asset().centers(), static_cast<double>(found.boundsMargin())}, out);
+            {found.asset().skinning(found.instances().skinning()), static_cast<double>(found.boundsMargin())}, out);
     });
 }
 

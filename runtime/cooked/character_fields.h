@@ -28,7 +28,7 @@ inline constexpr auto kLast<cage::UvMode> = cage::UvMode::all;
 template <>
 inline constexpr auto kLast<cage::MadeFor> = cage::MadeFor::none;
 template <>
-inline constexpr auto kLast<cage::SkinningMode> = cage::SkinningMode::centersOfRotation;
+inline constexpr auto kLast<cage::SkinningMode> = cage::SkinningMode::deltaMushLight;
 template <>
 inline constexpr auto kLast<cage::ExpressionKind> = cage::ExpressionKind::mouth;
 template <>
@@ -145,10 +145,14 @@ void fields(A& a, T& material) {
       material.emissiveStrength, material.unlit, material.alphaMode, material.alphaCutoff, material.doubleSided,
       material.layers, material.trim);
 }
+template <class A, Is<Smoothing> T>
+void fields(A& a, T& smoothing) {
+    a(smoothing.lambda, smoothing.iterations);
+}
 template <class A, Is<Part> T>
 void fields(A& a, T& part) {
     a(part.name, part.node, part.rigid, part.joints, part.firstFace, part.firstTarget, part.targetCount,
-      part.polygonSource, part.weldSource, part.uvMode, part.madeFor, part.skinning);
+      part.polygonSource, part.weldSource, part.uvMode, part.madeFor, part.skinning, part.smoothing);
 }
 template <class A, Is<Damage> T>
 void fields(A& a, T& damage) {
@@ -159,7 +163,8 @@ void fields(A& a, T& character) {
     a(character.name, character.copyright, character.cage, character.parts, character.skeleton.nodes,
       character.skeleton.parentsFirst, character.skin.joints, character.skin.inverseBinds, character.weights.starts,
       character.weights.influences, character.morphs.targets, character.morphs.weights, character.expressions,
-      character.drivers, character.weights.jiggles, character.jiggles, character.weights.cloths, character.cloths,
+      character.drivers, character.weights.jiggles, character.weights.mushMask, character.jiggles,
+      character.weights.cloths, character.cloths,
       character.springBones.springs, character.springBones.colliderGroups, character.springBones.colliders,
       character.clips, character.clipRoot, character.materials, character.materialVariants, character.images,
       character.warnings, character.damages, character.sourceVertexCount, character.seamVertexCount);

@@ -14,6 +14,10 @@
 
 namespace supple::runtime {
 
+template <>
+inline constexpr bool kIsPlain<skinning::MushInfluence> = true;
+static_assert(sizeof(skinning::MushInfluence) == 44);
+
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
@@ -74,6 +78,10 @@ void writeAll(const Prepared& prepared, const std::string& madeBy, Writer& write
     writer.put(std::span<const std::byte>(kRoom));
     writer(madeBy, prepared.character, prepared.choices, prepared.clips.has_value());
     writer(prepared.centers ? std::optional(prepared.centers->points) : std::nullopt);
+    writer(prepared.mush.has_value());
+    if (prepared.mush) {
+        writer(prepared.mush->places, prepared.mush->starts, prepared.mush->influences);
+    }
     writer(static_cast<uint32_t>(prepared.pieces.size()));
     for (const auto& piece : prepared.pieces) {
         writer(piece->parts, piece->of);
@@ -157,21 +165,59 @@ Status readBeginning(std::span<const std::byte> bytes, const std::string& name, 
     return success();
 }
 
+/// One a vertex, or zeros.
+bool arePlaces(const std::vector<glm::vec4>& points, size_t vertexCount) {
+    return points.size() == vertexCount && std::all_of(points.begin(), points.end(), [](const glm::vec4& point) {
+               return std::isfinite(point.x + point.y + point.z) && (point.w == 0.0f || point.w == 1.0f);
+           });
+}
+
 void readCenters(Reader& reader, Prepared& prepared) {
     std::optional<std::vector<glm::vec4>> points;
     reader(points);
     if (reader.fault() || !points) {
         return;
     }
-    const bool sound = points->size() == prepared.character.cage.positions.size() &&
-                       std::all_of(points->begin(), points->end(), [](const glm::vec4& point) {
-                           return std::isfinite(point.x + point.y + point.z) && (point.w == 0.0f || point.w == 1.0f);
-                       });
-    if (!sound) {
+    if (!arePlaces(*points, prepared.character.cage.positions.size())) {
         reader.refuse("centers of rotation that are none");
         return;
     }
     prepared.centers = skinning::Centers::of(prepared.character, std::move(*points));
+}
+
+bool isSoundInfluence(const skinning::MushInfluence& influence, size_t jointCount) {
+    const glm::vec3& o = influence.offset;
+    return influence.joint < jointCount && influence.weight >= 0.0f && std::isfinite(influence.weight) &&
+           std::isfinite(o.x + o.y + o.z) &&
+           std::all_of(influence.spread.begin(), influence.spread.end(), [](float x) { return std::isfinite(x); });
+}
+
+void readMush(Reader& reader, Prepared& prepared) {
+    bool isThere = false;
+    reader(isThere);
+    if (reader.fault() || !isThere) {
+        return;
+    }
+    std::vector<glm::vec4> places;
+    std::vector<uint32_t> starts;
+    std::vector<skinning::MushInfluence> influences;
+    reader(places, starts, influences);
+    if (reader.fault()) {
+        return;
+    }
+    const size_t joints = prepared.character.skin.joints.size(), vertices = prepared.character.cage.positions.size();
+    const bool sound = arePlaces(places, vertices) && starts.size() == vertices + 1 && starts.front() == 0 &&
+                       starts.back() == influences.size() &&
+                       std::adjacent_find(starts.begin(), starts.end(), std::greater_equal<>()) == starts.end() &&
+                       std::all_of(influences.begin(), influences.end(), [&](const skinning::MushInfluence& influence) {
+                           return isSoundInfluence(influence, joints);
+                       });
+    if (!sound) {
+        reader.refuse("smoothed weights that are none");
+        return;
+    }
+    prepared.mush =
+        skinning::DeltaMush::of(prepared.character, std::move(places), std::move(starts), std::move(influences));
 }
 
 void readPieces(Reader& reader, Prepared& prepared) {
@@ -278,6 +324,7 @@ Result<std::shared_ptr<Prepared>> readCooked(std::span<const std::byte> bytes, c
         prepared->clips = skinning::buildClipTable(prepared->character);
     }
     readCenters(reader, *prepared);
+    readMush(reader, *prepared);
     readPieces(reader, *prepared);
     readTables(reader, *prepared);
     if (!reader.fault() && reader.bytesLeft() > 0) {

@@ -6,6 +6,7 @@
 //   choices      what SUPPLE_SCHEME_AUTO takes for each part
 //   clips        1: a group is to play them on the device
 //   centers      of rotation, if a group is to be skinned about them
+//   mush         1: a group is to be skinned by delta mush; then skinning::DeltaMush without its arms
 //   pieces, tables  cooked/table_fields.h
 //
 // Numbers are little-endian as they lie in memory. A list is its count (64 bits) and its elements.

@@ -14,7 +14,7 @@ public:
 
     [[nodiscard]] Status createSets(const CageBuffers& buffers) override {
         const skinning::PoseLayout& layout = instances_->poseLayout();
-        const gpu::StaticBuffers& table = asset_->deformTable(instances_->skinning());
+        const gpu::StaticBuffers& table = asset_->skin(instances_->skinning()).buffers;
         stride_ = buffers.stride;
         return sets_.create({device_,
                              &kernels_->layout(),
@@ -31,18 +31,20 @@ public:
         gpu::OwnDispatches dispatches(*device_, commandBuffer);
         dispatches->computeBarrier();
         shared::DeformPush push{}; // of no instances
-        push.firstInfluences = asset_->firstInfluences;
-        push.firstCenter = asset_->firstCenter;
+        const SkinTables& skin = asset_->skin(instances_->skinning());
+        push.firstInfluences = skin.firstInfluences;
+        push.firstCenter = skin.firstCenter;
         kernels_->record(*dispatches, sets_[0], instances_->skinning(), push);
     }
 
     PassCost record(const CageFrame& frame) override {
         const skinning::PoseLayout& layout = instances_->poseLayout();
+        const SkinTables& skin = asset_->skin(layout.mode);
         const uint32_t vertices = asset_->character.cage.vertexCount();
         frame.windows.forEach([&](uint32_t w) {
             kernels_->record(frame.dispatches, sets_[w], layout.mode,
                              {vertices, frame.windows.firstEntry(w), frame.windows.listed[w].count, layout.stride,
-                              stride_, layout.morphWeights, asset_->firstInfluences, asset_->firstCenter});
+                              stride_, layout.morphWeights, skin.firstInfluences, skin.firstCenter});
         });
         const uint64_t points = uint64_t{vertices} * frame.windows.visible;
         return {points, points * gpu::kVec4Bytes};
@@ -75,7 +77,7 @@ bool wantsDeform(const CageStageDesc& desc) {
 
 Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKernels& kernels) {
     skinning::DeformKernels& own = static_cast<DeformStageKernels&>(kernels).kernels;
-    const Status prepared = own.prepare(desc.instances->skinning(), desc.asset->firstInfluences != 0);
+    const Status prepared = own.prepare(desc.instances->skinning(), desc.asset->hasMorphs());
     if (!prepared) {
         return prepared.error();
     }

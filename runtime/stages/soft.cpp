@@ -75,7 +75,7 @@ public:
         gpu::OwnDispatches dispatches(*device_, commandBuffer);
         dispatches->computeBarrier();
         SoftPush push{}; // of no instances
-        push.firstInfluences = asset_->firstInfluences;
+        push.firstInfluences = asset_->skin(instances_->skinning()).firstInfluences;
         kernels_->record(*dispatches, sets_[0], instances_->skinning(), push);
     }
 
@@ -85,7 +85,7 @@ private:
     [[nodiscard]] Status writeSet(uint32_t w, const CageBuffers& buffers) {
         const InstanceWindows& windows = buffers.listing->windows();
         const Playback::StepPoses steps = playback().stepPoses();
-        const gpu::StaticBuffers& table = asset_->deformTable(instances_->skinning());
+        const gpu::StaticBuffers& table = asset_->skin(instances_->skinning()).buffers;
         const gpu::StaticBuffers& soft = soft_->table;
         Status status = success();
         const auto view = [&](const VkDescriptorBufferInfo& info, VkFormat format, const char* name) {
@@ -135,8 +135,8 @@ private:
         push.stateStride = stateStride_;
         push.cageStride = cageStride_;
         push.morphWeights = instances_->poseLayout().morphWeights;
-        push.firstInfluences = asset_->firstInfluences;
-        push.firstCenter = asset_->firstCenter;
+        push.firstInfluences = asset_->skin(instances_->skinning()).firstInfluences;
+        push.firstCenter = asset_->skin(instances_->skinning()).firstCenter;
         return push;
     }
 
@@ -165,7 +165,7 @@ Result<std::unique_ptr<CageKernels>> makeSoftKernels(const gpu::Device& device, 
 Result<std::unique_ptr<CageStage>> makeSoftStage(const CageStageDesc& desc, const SoftOfAsset& soft,
                                                  CageKernels& kernels) {
     skinning::SoftKernels& own = static_cast<SoftStageKernels&>(kernels).kernels;
-    const Status prepared = own.prepare(desc.instances->skinning(), desc.asset->firstInfluences != 0);
+    const Status prepared = own.prepare(desc.instances->skinning(), desc.asset->hasMorphs());
     if (!prepared) {
         return prepared.error();
     }

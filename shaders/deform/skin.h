@@ -1,5 +1,6 @@
 // What a vertex of the cage becomes: morph targets, then skinning. Needs table(), pose(), `push`, and `bool kMorphs`,
-// `uint kSkinning`: GLSL has them from deform.comp; in C++ this is the inside of a class (skinning/deform_twin.cpp).
+// `uint kSkinning`, `bool kMush`: whether that may be delta mush. GLSL has them from deform.comp; in C++ this is the inside of a
+// class (skinning/deform_twin.cpp).
 // Whatever feeds the position is `precise`: both mappings and the CPU must give the same cage, bit for bit.
 
 vec3 placeOf(uint x, uint y, uint z) { return vec3(uintBitsToFloat(x), uintBitsToFloat(y), uintBitsToFloat(z)); }
@@ -131,10 +132,21 @@ Turn apart(Turn own, Turn base, float weight) {
     return result;
 }
 
+// By how much a joint moves a direction beside another one, whose rows are given.
+vec3 slid(uint joint, vec3 a, vec3 b, vec3 c, vec3 direction) {
+    SUPPLE_PRECISE vec3 x = vec3(pose(joint)) - a;
+    SUPPLE_PRECISE vec3 y = vec3(pose(joint + 1u)) - b;
+    SUPPLE_PRECISE vec3 z = vec3(pose(joint + 2u)) - c;
+    return vec3(dot3(x, direction), dot3(y, direction), dot3(z, direction));
+}
+
 // Centers of rotation (Le, Hodgins: Real-time Skeletal Skinning with Optimized Centers of Rotation, ACM TOG 35(4), 2016):
 // the center is blended linearly, and the vertex turns about it by the blend of the joints' rotations. Where joints scale
 // or mirror, what is left of their matrices without the rotations is blended linearly, and acts before the turn. All is
 // seen from where the heaviest joint alone takes it: so the bind pose is the cage, to the bit.
+//
+// Light delta mush turns the vertex about its smoothed place in the same way, with smoothed weights w_j. Joints move that
+// place as they move the vertices whose mean it is: where those of joint j lie off it, by offset_j in all, joint j slides it.
 vec3 blendedAboutCenter(vec3 center, vec3 rest, uint first, uint end, uint joints) {
     uint heaviest = joints + kRotationElements * table(first).x;
     SUPPLE_PRECISE vec3 way = rest - center;
@@ -143,7 +155,9 @@ vec3 blendedAboutCenter(vec3 center, vec3 rest, uint first, uint end, uint joint
     SUPPLE_PRECISE vec4 q = vec4(0.0f);
     SUPPLE_PRECISE vec3 moved = vec3(0.0f);
     SUPPLE_PRECISE vec3 stretched = vec3(0.0f);
-    for (uint element = first; element < end; ++element) {
+    vec3 ha = vec3(pose(heaviest)), hb = vec3(pose(heaviest + 1u)), hc = vec3(pose(heaviest + 2u));
+    uint step = kMush && kSkinning == kLightMushSkinning ? kLightMushElements : 1u;
+    for (uint element = first; element < end; element += step) {
         uvec4 pair = table(element);
         SUPPLE_PRECISE Turn a =
             apart(turn(joints + kRotationElements * pair.x, center, way), base, uintBitsToFloat(pair.y));
@@ -151,11 +165,101 @@ vec3 blendedAboutCenter(vec3 center, vec3 rest, uint first, uint end, uint joint
             apart(turn(joints + kRotationElements * pair.z, center, way), base, uintBitsToFloat(pair.w));
         q = q + (a.rotation + b.rotation);
         moved = moved + (a.center + b.center);
+        if (kMush && kSkinning == kLightMushSkinning) {
+            uvec4 one = table(element + 1u), two = table(element + 2u);
+            SUPPLE_PRECISE vec3 c = slid(joints + kRotationElements * pair.x, ha, hb, hc, placeOf(one.x, one.y, one.z));
+            SUPPLE_PRECISE vec3 d = slid(joints + kRotationElements * pair.z, ha, hb, hc, placeOf(two.x, two.y, two.z));
+            moved = moved + (c + d);
+        }
         stretched = stretched + (a.way + b.way);
     }
     SUPPLE_PRECISE vec4 squares = q * q;
     SUPPLE_PRECISE float twice = 2.0f * wideRecip(sum4(squares));
     SUPPLE_PRECISE vec3 change = turned(q, twice, base.way + stretched) - (anchor - base.center);
+    SUPPLE_PRECISE vec3 p = anchor + (moved + change);
+    return p;
+}
+
+// What joints make of the neighborhood of a vertex: how each turns its part of it, and where that part goes. Rows of 3 x 3
+// matrices.
+struct Neighborhood {
+    vec3 turnedX;
+    vec3 turnedY;
+    vec3 turnedZ;
+    vec3 movedX;
+    vec3 movedY;
+    vec3 movedZ;
+    float stretch; // three times the factor by which joints scale it; below 0: they mirror it
+};
+Neighborhood emptyNeighborhood() {
+    Neighborhood none;
+    none.turnedX = none.turnedY = none.turnedZ = none.movedX = none.movedY = none.movedZ = vec3(0.0f);
+    none.stretch = 0.0f;
+    return none;
+}
+// `spread`: xx, xy, xz and yy, yz, zz of the part's moments about the smoothed place; `moved`: where the joint takes that
+// place, seen from where the heaviest joint does.
+Neighborhood withPart(Neighborhood sum, uint joint, float weight, vec3 offset, vec3 spread, vec3 spread2, vec3 moved) {
+    vec4 q = pose(joint + 3u);
+    SUPPLE_PRECISE vec3 twice = vec3(q) * 2.0f;
+    SUPPLE_PRECISE vec3 squares = twice * vec3(q);
+    SUPPLE_PRECISE vec3 others = twice * vec3(q.y, q.z, q.x);
+    SUPPLE_PRECISE vec3 turns = twice * q.w;
+    SUPPLE_PRECISE vec3 x = vec3(1.0f - (squares.y + squares.z), others.x - turns.z, others.z + turns.y);
+    SUPPLE_PRECISE vec3 y = vec3(others.x + turns.z, 1.0f - (squares.x + squares.z), others.y - turns.x);
+    SUPPLE_PRECISE vec3 z = vec3(others.z - turns.y, others.y + turns.x, 1.0f - (squares.x + squares.y));
+    vec3 s = vec3(spread.y, spread2.x, spread2.y), t = vec3(spread.z, spread2.y, spread2.z);
+    SUPPLE_PRECISE Neighborhood result;
+    result.turnedX = sum.turnedX + vec3(dot3(x, spread), dot3(x, s), dot3(x, t));
+    result.turnedY = sum.turnedY + vec3(dot3(y, spread), dot3(y, s), dot3(y, t));
+    result.turnedZ = sum.turnedZ + vec3(dot3(z, spread), dot3(z, s), dot3(z, t));
+    result.movedX = sum.movedX + offset * moved.x;
+    result.movedY = sum.movedY + offset * moved.y;
+    result.movedZ = sum.movedZ + offset * moved.z;
+    SUPPLE_PRECISE float own =
+        (dot3(x, vec3(pose(joint))) + dot3(y, vec3(pose(joint + 1u)))) + dot3(z, vec3(pose(joint + 2u)));
+    result.stretch = sum.stretch + own * weight;
+    return result;
+}
+// The rotation that fits it best, behind `base`. So where the neighborhood is thin and leaves the rotation about its length
+// open, that of the heaviest joint is taken.
+vec4 rotationOf(Neighborhood of, vec4 base) {
+    SUPPLE_PRECISE float size = abs(of.stretch) * 0.33333334f;
+    float side = of.stretch < 0.0f ? -1.0f : 1.0f;
+    SUPPLE_PRECISE vec3 x = of.turnedX * size + of.movedX * side;
+    SUPPLE_PRECISE vec3 y = of.turnedY * size + of.movedY * side;
+    SUPPLE_PRECISE vec3 z = of.turnedZ * size + of.movedZ * side;
+    vec4 back = vec4(-vec3(base), base.w);
+    return fittedRotation(turned(back, 2.0f, vec3(x.x, y.x, z.x)), turned(back, 2.0f, vec3(x.y, y.y, z.y)),
+                          turned(back, 2.0f, vec3(x.z, y.z, z.z)), false);
+}
+
+// Direct delta mush (Le, Lewis: Direct Delta Mush Skinning and Variants, ACM TOG 38(4), 2019), with moments about the smoothed
+// place of the vertex, so that floats subtract nothing large: joints move that place as they move the vertices whose mean it
+// is, and the vertex turns about it as its neighborhood does. Where joints scale or mirror, what is left of their matrices
+// without the rotations acts before the turn, as with centers of rotation; and so the bind pose is the cage, to the bit.
+vec3 blendedByMush(vec3 place, vec3 rest, uint first, uint end, uint joints) {
+    uint heaviest = joints + kRotationElements * table(first).x;
+    SUPPLE_PRECISE vec3 way = rest - place;
+    SUPPLE_PRECISE Turn base = turn(heaviest, place, way);
+    SUPPLE_PRECISE vec3 anchor = transformed(heaviest, rest);
+    vec3 ha = vec3(pose(heaviest)), hb = vec3(pose(heaviest + 1u)), hc = vec3(pose(heaviest + 2u));
+    SUPPLE_PRECISE vec3 moved = vec3(0.0f);
+    SUPPLE_PRECISE vec3 stretched = vec3(0.0f);
+    SUPPLE_PRECISE Neighborhood around = emptyNeighborhood();
+    for (uint element = first; element < end; element += kMushElements) {
+        uvec4 a = table(element), b = table(element + 1u), c = table(element + 2u);
+        uint joint = joints + kRotationElements * a.x;
+        float weight = uintBitsToFloat(a.y);
+        vec3 offset = placeOf(a.z, a.w, b.x);
+        SUPPLE_PRECISE Turn own = turn(joint, place, way);
+        SUPPLE_PRECISE vec3 from = own.center - base.center;
+        moved = moved + (from * weight + slid(joint, ha, hb, hc, offset));
+        stretched = stretched + (own.way - base.way) * weight;
+        around = withPart(around, joint, weight, offset, placeOf(b.y, b.z, b.w), placeOf(c.x, c.y, c.z), from);
+    }
+    SUPPLE_PRECISE vec3 shaped = turned(rotationOf(around, base.rotation), 2.0f, base.way + stretched);
+    SUPPLE_PRECISE vec3 change = turned(base.rotation, 2.0f, shaped) - (anchor - base.center);
     SUPPLE_PRECISE vec3 p = anchor + (moved + change);
     return p;
 }
@@ -196,8 +300,12 @@ vec4 deformedVertex(uint index, uint joints) {
         } else {
             // Without a center the way is 0: what is left is linear.
             uvec4 center = table(push.firstCenter + index);
-            p = blendedAboutCenter(center.w == 0u ? rest : placeOf(center.x, center.y, center.z), rest, first, end,
-                                   joints + kRotationTransform);
+            vec3 place = center.w == 0u ? rest : placeOf(center.x, center.y, center.z);
+            if (kMush && kSkinning == kMushSkinning) {
+                p = blendedByMush(place, rest, first, end, joints + kRotationTransform);
+            } else {
+                p = blendedAboutCenter(place, rest, first, end, joints + kRotationTransform);
+            }
         }
         p = transformed(joints, p);
     }

@@ -2,12 +2,18 @@
 //
 // Table (uvec4 elements): one record a cage vertex and one more, then every vertex's run of elements; where the cage
 // has morph targets, four words an element with the first influence of every vertex follow; where it is skinned by
-// centers of rotation, an element a vertex with its center follows.
+// centers of rotation or delta mush, an element a vertex with its center follows.
 //   vertex     (x, y, z as float bits; first element of its run); a run ends where the next vertex's begins
 //   run        displacements, one an element: (morph target, x, y, z as float bits); then
 //              influences, two an element: (joint, weight bits, joint, weight bits), the heaviest first; an odd list is
 //              filled up with weight 0
-//   center     (x, y, z, 1 as float bits), or zeros: the vertex has none and is skinned linearly
+//              light delta mush, three elements for two influences: those two, then (x, y, z, 0) of the offset of each
+//              delta mush, three elements an influence: (joint, weight bits, offset x, y), (offset z, spread xx, xy, xz),
+//              (spread yy, yz, zz, 0)
+//   center     (x, y, z, 1 as float bits), or zeros: the vertex has none and is skinned linearly. Delta mush: its smoothed place
+//
+// Offset and spread: the first and second moments, about that place, of what the joint moves of the vertex' neighborhood
+// (skinning/delta_mush.h).
 //
 // Pose (vec4 elements, one run of `poseStride` an instance), uploaded every frame:
 //   rows               three rows a joint, of its matrix with the instance's transform before it
@@ -37,6 +43,11 @@ SUPPLE_SHARED_CONST kRotationTransform = 3u; // behind the instance's transform
 SUPPLE_SHARED_CONST kLinearSkinning = 0u;         // poses of rows
 SUPPLE_SHARED_CONST kDualQuaternionSkinning = 1u; // poses of rows and rotations
 SUPPLE_SHARED_CONST kCenterSkinning = 2u;         // the same, and the table has centers
+SUPPLE_SHARED_CONST kMushSkinning = 3u;           // the same, and moments
+SUPPLE_SHARED_CONST kLightMushSkinning = 4u;      // the same, but for spreads
+
+SUPPLE_SHARED_CONST kMushElements = 3u;      // table elements an influence
+SUPPLE_SHARED_CONST kLightMushElements = 3u; // for two
 
 struct DeformPush {
     uint vertexCount;

@@ -4,12 +4,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/deform.h"
+#include "shaders/shared/fitted_rotation.h"
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/vectors.h"
 #include "shaders/soft/jiggle.h"
 
 layout(constant_id = kMorphsConstant) const bool kMorphs = false;
 layout(constant_id = kSkinningConstant) const uint kSkinning = kLinearSkinning;
+#ifdef MUSH
+const bool kMush = true;
+#else
+const bool kMush = false;
+#endif
 
 BUFFER(, DeformedCage, kDeformedCageBinding, std430, vec4, deformedCage)
 BUFFER(, Jiggles, kSoftStateBinding, std430, vec4, jiggles)

@@ -192,7 +192,7 @@ private:
         if (desc.poseSource == SUPPLE_POSES_PLAYBACK) {
             desc.flags |= choose_.below(32) * SUPPLE_GROUP_MODIFIERS; // transitions, update rates, springs, jiggle
         }
-        desc.skinning = static_cast<SuppleSkinning>(choose_.below(4));
+        desc.skinning = static_cast<SuppleSkinning>(choose_.below(6));
         uint32_t family = families_;
         if (!groups_.empty() && choose_.below(8) == 1) {
             const Group& followed = choose_.of(groups_);

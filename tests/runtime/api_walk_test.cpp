@@ -1563,8 +1563,10 @@ void groups(Rows& r) {
         range("uvInterpolation " + std::to_string(value),
               [=](Desc& d) { d.uvInterpolation = static_cast<SuppleUvInterpolation>(value); });
     }
-    for (const int value : {4, -1}) {
+    for (const int value : {6, -1}) {
         range("skinning " + std::to_string(value), [=](Desc& d) { d.skinning = static_cast<SuppleSkinning>(value); });
+    }
+    for (const int value : {4, -1}) {
         range("poseSource " + std::to_string(value),
               [=](Desc& d) { d.poseSource = static_cast<SupplePoseSource>(value); });
     }

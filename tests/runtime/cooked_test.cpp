@@ -6,6 +6,7 @@
 #include "tests/support/sample_assets.h"
 #include "tests/support/shared_assets.h"
 
+#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
@@ -126,6 +127,43 @@ TEST(Cooked, FilesKeepCenters) {
     Prepared few = *prepared;
     few.centers->points.pop_back();
     EXPECT_NE(refusalOf(writeCooked(few, "")).find("centers of rotation that are none"), std::string::npos);
+}
+
+TEST(Cooked, FilesKeepSmoothedWeights) {
+    Result<cage::Character> character = cage::readGltfFile(test::kPip);
+    ASSERT_TRUE(character.ok());
+    character->parts[0].smoothing = cage::Smoothing{0.5f, 6};
+    character->weights.mushMask.assign(character->cage.vertexCount(), 0.75f);
+    const std::shared_ptr<Prepared> prepared = Prepared::of(*character);
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.scheme = SUPPLE_SCHEME_CAGE;
+    desc.skinning = SUPPLE_SKINNING_DELTA_MUSH_LIGHT;
+    ASSERT_TRUE(prepareFor(*prepared, {desc, std::nullopt}, false).ok());
+    ASSERT_TRUE(prepared->mush.has_value());
+    const std::vector<std::byte> file = writeCooked(*prepared, "supple cook");
+    const Result<std::shared_ptr<Prepared>> read = readCooked(file, prepared->character.name);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    ASSERT_TRUE((*read)->mush.has_value());
+    EXPECT_EQ((*read)->mush->places, prepared->mush->places);
+    EXPECT_EQ((*read)->mush->starts, prepared->mush->starts);
+    EXPECT_EQ((*read)->mush->influences, prepared->mush->influences);
+    EXPECT_EQ((*read)->mush->arms, prepared->mush->arms);
+    EXPECT_EQ((*read)->character.parts[0].smoothing, (cage::Smoothing{0.5f, 6}));
+    EXPECT_EQ((*read)->character.weights.mushMask, character->weights.mushMask);
+
+    const auto refused = [&](const std::function<void(skinning::DeltaMush&)>& spoil) {
+        Prepared spoiled = *prepared;
+        spoil(*spoiled.mush);
+        EXPECT_NE(refusalOf(writeCooked(spoiled, "")).find("smoothed weights that are none"), std::string::npos);
+    };
+    refused([](skinning::DeltaMush& mush) { mush.influences[3].joint = 100000; });
+    refused([](skinning::DeltaMush& mush) { mush.influences[3].weight = -1.0f; });
+    refused([](skinning::DeltaMush& mush) { mush.influences[3].spread[5] = std::numeric_limits<float>::infinity(); });
+    refused([](skinning::DeltaMush& mush) { mush.places[3].w = 2.0f; });
+    refused([](skinning::DeltaMush& mush) { mush.starts[3] = mush.starts[2]; });
+    refused([](skinning::DeltaMush& mush) { mush.starts.back() += 1; });
+    refused([](skinning::DeltaMush& mush) { mush.starts.clear(); });
 }
 
 TEST(Cooked, FilesKeepJiggles) {

@@ -37,6 +37,7 @@ const PlannedCase kPlannedCases[] = {
     {"fragments", {.flags = SUPPLE_GROUP_MOTION, .scheme = SUPPLE_SCHEME_FRAGMENTS, .rate = 4}},
     {"blend", {.scheme = SUPPLE_SCHEME_BLEND, .rate = 4, .skinning = SUPPLE_SKINNING_DUAL_QUATERNION}},
     {"centers", {.rate = 3, .skinning = SUPPLE_SKINNING_CENTERS_OF_ROTATION}},
+    {"mush", {.scheme = SUPPLE_SCHEME_CAGE, .skinning = SUPPLE_SKINNING_DELTA_MUSH}},
     {"polygons", {.flags = SUPPLE_GROUP_ATTRIBUTES, .scheme = SUPPLE_SCHEME_POLYGONS}},
     {"playing", {.scheme = SUPPLE_SCHEME_PM, .rate = 2, .poseSource = SUPPLE_POSES_PLAYBACK}},
     {"rated", {.flags = SUPPLE_GROUP_UPDATE_RATES, .scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK}},

@@ -234,7 +234,8 @@ TEST_F(PoseApi, SkinningIsASwitchOfTheGroup) {
     ASSERT_EQ(suppleSetClipPose(handle(), instances[1], 2, 1.1), SUPPLE_OK);
     const auto linear = cages();
     auto before = linear;
-    for (const SuppleSkinning skinning : {SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
+    for (const SuppleSkinning skinning : {SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION,
+                                          SUPPLE_SKINNING_DELTA_MUSH, SUPPLE_SKINNING_DELTA_MUSH_LIGHT}) {
         ASSERT_EQ(suppleDestroyGroup(handle(), group), SUPPLE_OK);
         group = makeGroup(skinning);
         instances = instancesOf(group);
@@ -619,7 +620,8 @@ TEST(PoseUpload, OneCopyOfPosesAFrame) {
                           {SUPPLE_SKINNING_LINEAR, 6, 3 * 48 + 2 * 16},
                           {SUPPLE_SKINNING_DUAL_QUATERNION, 0, 48 + 3 * 64},
                           {SUPPLE_SKINNING_DUAL_QUATERNION, 4, 48 + 3 * 64 + 16},
-                          {SUPPLE_SKINNING_CENTERS_OF_ROTATION, 4, 48 + 3 * 64 + 16}};
+                          {SUPPLE_SKINNING_CENTERS_OF_ROTATION, 4, 48 + 3 * 64 + 16},
+                          {SUPPLE_SKINNING_DELTA_MUSH, 4, 48 + 3 * 64 + 16}};
     wrappedVulkan();
     host::DeviceOptions deviceOptions;
     deviceOptions.validation = true;

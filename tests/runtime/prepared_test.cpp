@@ -53,6 +53,7 @@ const std::vector<Plan>& plans() {
          {.capacity = 2, .scheme = SUPPLE_SCHEME_CATMULL_CLARK, .rate = 2, .poseSource = SUPPLE_POSES_PLAYBACK}},
         {"cage", {.capacity = 2, .scheme = SUPPLE_SCHEME_CAGE}},
         {"centers", {.capacity = 2, .scheme = SUPPLE_SCHEME_CAGE, .skinning = SUPPLE_SKINNING_CENTERS_OF_ROTATION}},
+        {"mush", {.capacity = 2, .scheme = SUPPLE_SCHEME_CAGE, .skinning = SUPPLE_SKINNING_DELTA_MUSH}},
         {"levels", {.capacity = 2, .scheme = SUPPLE_SCHEME_CATMULL_CLARK}, true},
         {"rates", {.capacity = 2, .scheme = SUPPLE_SCHEME_FRAGMENTS, .rate = 4}, true}};
     return kPlans;

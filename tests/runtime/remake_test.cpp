@@ -45,6 +45,7 @@ constexpr RemakeCase kRemakeCases[] = {
     {"set", SUPPLE_POSES_SET, SUPPLE_SKINNING_LINEAR, false},
     {"dualQuaternions", SUPPLE_POSES_SET, SUPPLE_SKINNING_DUAL_QUATERNION, false},
     {"centers", SUPPLE_POSES_SET, SUPPLE_SKINNING_CENTERS_OF_ROTATION, false},
+    {"mush", SUPPLE_POSES_SET, SUPPLE_SKINNING_DELTA_MUSH_LIGHT, false},
     {"playback", SUPPLE_POSES_PLAYBACK, SUPPLE_SKINNING_LINEAR, false},
     {"view", SUPPLE_POSES_SET, SUPPLE_SKINNING_LINEAR, true},
 };

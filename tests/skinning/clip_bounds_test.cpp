@@ -2,11 +2,14 @@
 #include "skinning/clip_bounds.h"
 
 #include "cage/gltf/reader.h"
+#include "skinning/centers.h"
 #include "skinning/chord.h"
+#include "skinning/delta_mush.h"
 #include "skinning/pose.h"
 #include "tests/support/boxes.h"
 #include "tests/support/centers_reference.h"
 #include "tests/support/dual_quaternion_reference.h"
+#include "tests/support/mush_reference.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/shared_assets.h"
 
@@ -33,14 +36,22 @@ using test::holds;
 struct Skinned {
     SkinningMode mode = SkinningMode::linear;
     Centers centers;
+    DeltaMush mush;
 
-    Skinned(const Character& character, SkinningMode own)
-        : mode(own), centers(skinningRow(own).centers ? findCenters(character) : Centers()) {}
+    Skinned(const Character& character, SkinningMode own) : mode(own) {
+        centers = skinningRow(own).extra == SkinExtra::centers ? findCenters(character) : Centers();
+        if (skinningRow(own).extra == SkinExtra::mush) {
+            Result<DeltaMush> found = findDeltaMush(character);
+            EXPECT_TRUE(found.ok()) << found.error().message;
+            mush = std::move(*found);
+        }
+    }
     [[nodiscard]] ClipBoundsDesc bounds(double tolerance = ClipBoundsDesc{}.tolerance) const {
-        return {mode, &centers, 0.0, tolerance};
+        return {{mode, &centers, &mush}, 0.0, tolerance};
     }
 };
-constexpr SkinningMode kModes[] = {SkinningMode::linear, SkinningMode::dualQuaternion, SkinningMode::centersOfRotation};
+constexpr SkinningMode kModes[] = {SkinningMode::linear, SkinningMode::dualQuaternion, SkinningMode::centersOfRotation,
+                                   SkinningMode::deltaMush, SkinningMode::deltaMushLight};
 
 std::vector<glm::dvec3> posed(const Character& character, const Pose& pose, const Skinned& skinned) {
     if (skinned.mode == SkinningMode::linear) {
@@ -51,9 +62,13 @@ std::vector<glm::dvec3> posed(const Character& character, const Pose& pose, cons
     posePalette(character, pose, nodes, palette);
     const std::vector<float> weights(pose.morphWeights.begin(), pose.morphWeights.end());
     const std::vector<glm::dvec3> morphed = morphOnCpu(character.cage, character.morphs, weights);
-    return skinned.mode == SkinningMode::dualQuaternion
-               ? test::skinWithDualQuaternions(morphed, character.weights, palette)
-               : test::skinAboutCenters(morphed, test::centersOf(skinned.centers), character.weights, palette);
+    if (skinned.mode == SkinningMode::dualQuaternion) {
+        return test::skinWithDualQuaternions(morphed, character.weights, palette);
+    }
+    if (skinned.mode == SkinningMode::centersOfRotation) {
+        return test::skinAboutCenters(morphed, test::centersOf(skinned.centers), character.weights, palette);
+    }
+    return test::skinByMush(morphed, test::mushOf(skinned.mush), palette, skinned.mode == SkinningMode::deltaMushLight);
 }
 
 /// The box of what the clip shows at `count` times and at its keys.

@@ -2,12 +2,15 @@
 #include "skinning/reach.h"
 
 #include "cage/gltf/reader.h"
+#include "skinning/centers.h"
+#include "skinning/delta_mush.h"
 #include "skinning/played_pose.h"
 #include "skinning/skinned_bounds.h"
 #include "tests/support/boxes.h"
 #include "tests/support/centers_reference.h"
 #include "tests/support/dual_quaternion_reference.h"
 #include "tests/support/meshes.h"
+#include "tests/support/mush_reference.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/shared_assets.h"
 
@@ -58,7 +61,7 @@ TEST(Reach, HoldsEveryMixOfClips) {
         const Rig rig = makeRig(*character);
         const bool small = character->cage.positions.size() < 1500; // references of other skinnings are slow
         const Centers centers = small ? findCenters(*character) : Centers();
-        const SkinnedBounds about(SkinningMode::centersOfRotation, &centers);
+        const SkinnedBounds about({SkinningMode::centersOfRotation, &centers, nullptr});
         test::Noise noise(static_cast<uint32_t>(characters));
         PoseMemory memory(*character);
         std::vector<Affine> palette(character->skin.joints.size());
@@ -78,7 +81,7 @@ TEST(Reach, HoldsEveryMixOfClips) {
                 const Box centered =
                     boxAround(test::skinAboutCenters(morphed, test::centersOf(centers), character->weights, palette));
                 ASSERT_TRUE(holds(about.reached(reach, reach.blended), centered)) << path;
-                ASSERT_TRUE(holds(about.posed(reach, palette, paletteBounds(reach, palette, weights)), centered));
+                ASSERT_TRUE(holds(about.posed(reach, palette, weights), centered));
                 ASSERT_TRUE(holds(dualQuaternionBounds(reach, reach.blended), turned)) << path;
                 ASSERT_TRUE(holds(dualQuaternionBounds(reach, paletteBounds(reach, palette, weights)), turned));
             }
@@ -135,7 +138,10 @@ TEST(Reach, HoldsWhatRandomClipsMix) {
         EXPECT_EQ(reach.anchor, 1u);
         const Rig rig = makeRig(tube);
         const Centers centers = findCenters(tube);
-        const SkinnedBounds about(SkinningMode::centersOfRotation, &centers);
+        const SkinnedBounds about({SkinningMode::centersOfRotation, &centers, nullptr});
+        const Result<DeltaMush> mush = findDeltaMush(tube);
+        ASSERT_TRUE(mush.ok()) << mush.error().message;
+        const SkinnedBounds mushed({SkinningMode::deltaMush, nullptr, &*mush});
         test::Noise noise(run);
         PoseMemory memory(tube);
         std::vector<Affine> palette(tube.skin.joints.size());
@@ -151,7 +157,11 @@ TEST(Reach, HoldsWhatRandomClipsMix) {
             const Box centered = boxAround(test::skinAboutCenters(morphOnCpu(tube.cage, tube.morphs, weights),
                                                                   test::centersOf(centers), tube.weights, palette));
             ASSERT_TRUE(holds(about.reached(reach, reach.blended), centered));
-            ASSERT_TRUE(holds(about.posed(reach, palette, paletteBounds(reach, palette, weights)), centered));
+            ASSERT_TRUE(holds(about.posed(reach, palette, weights), centered));
+            const Box smoothed = boxAround(test::skinByMush(morphOnCpu(tube.cage, tube.morphs, weights),
+                                                            test::mushOf(*mush), palette, k % 2 == 0));
+            ASSERT_TRUE(holds(mushed.reached(reach, reach.blended), smoothed));
+            ASSERT_TRUE(holds(mushed.posed(reach, palette, weights), smoothed));
         }
         ratios += diagonal(reach.blended) / diagonal(seen);
     }

@@ -32,6 +32,7 @@ public:
         compare("skin.inverseBinds", a.skin.inverseBinds, b.skin.inverseBinds);
         compare("weights.starts", a.weights.starts, b.weights.starts);
         compare("weights.influences", a.weights.influences, b.weights.influences);
+        compare("weights.mushMask", a.weights.mushMask, b.weights.mushMask);
         compareAll("morphs.targets", a.morphs.targets, b.morphs.targets, &CharacterDifferences::compareTargets);
         compare("morphs.weights", a.morphs.weights, b.morphs.weights);
         compareAll("clips", a.clips, b.clips, &CharacterDifferences::compareClips);
@@ -84,6 +85,7 @@ private:
         compare(at + ".targetCount", a.targetCount, b.targetCount);
         check(at + ".uvMode", a.uvMode == b.uvMode);
         check(at + ".skinning", a.skinning == b.skinning);
+        check(at + ".smoothing", a.smoothing == b.smoothing);
         check(at + ".madeFor", a.madeFor == b.madeFor);
         if (!overlooked_.source) {
             compare(at + ".polygonSource", a.polygonSource, b.polygonSource);

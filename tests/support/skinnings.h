@@ -8,20 +8,18 @@
 namespace supple::test {
 
 inline constexpr SuppleSkinning kSkinnings[] = {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_DUAL_QUATERNION,
-                                                SUPPLE_SKINNING_CENTERS_OF_ROTATION};
+                                                SUPPLE_SKINNING_CENTERS_OF_ROTATION, SUPPLE_SKINNING_DELTA_MUSH,
+                                                SUPPLE_SKINNING_DELTA_MUSH_LIGHT};
 inline const char* skinningName(SuppleSkinning skinning) {
-    constexpr const char* kNames[] = {"linear", "dual quaternions", "centers of rotation"};
+    constexpr const char* kNames[] = {"linear", "dual quaternions", "centers of rotation", "delta mush",
+                                      "light delta mush"};
     return kNames[skinning];
 }
 
 /// The table that the deform pass of a group reads, made anew.
 inline skinning::DeformTable deformTableOf(const runtime::Group& group) {
     const runtime::Asset& asset = group.asset();
-    const cage::Character& character = asset.character;
-    const bool centers = skinning::skinningRow(group.instances().skinning()).centers;
-    return skinning::buildDeformTable(character.cage, character.weights, character.morphs,
-                                      centers ? std::span<const glm::vec4>(asset.centers()->points)
-                                              : std::span<const glm::vec4>());
+    return skinning::buildDeformTable(asset.character, asset.skinning(group.instances().skinning()));
 }
 
 } // namespace supple::test

@@ -170,7 +170,9 @@ Character richCharacter() {
                         {"", {}, {}}};
     c.morphs.weights = {0.25f, 0.0f, 1.0f};
     c.parts[0].targetCount = 3;
-    c.parts[0].skinning = SkinningMode::centersOfRotation;
+    c.parts[0].skinning = SkinningMode::deltaMush;
+    c.parts[0].smoothing = Smoothing{0.5f, 8};
+    c.weights.mushMask = {1, 0.5f, 0, 1, 1, 0.25f, 1, 0, 1};
     c.parts[0].name = c.skeleton.nodes[c.parts[0].node].name;
 
     c.clips.resize(2);
@@ -357,7 +359,10 @@ TEST(GltfWriter, TheExtensionByHand) {
     EXPECT_EQ(glb.root["extensionsUsed"], json({"FB_ngon_encoding", "SUPPLE_mesh_cage", "SUPPLE_deformers",
                                                 "EXT_texture_webp", "KHR_materials_emissive_strength",
                                                 "KHR_materials_unlit", "KHR_texture_basisu", "KHR_texture_transform"}));
-    EXPECT_EQ(glb.root["meshes"][0]["extensions"], json({{"SUPPLE_deformers", {{"skinning", "centersOfRotation"}}}}));
+    EXPECT_EQ(glb.root["meshes"][0]["extensions"],
+              json({{"SUPPLE_deformers",
+                     {{"skinning", "deltaMush"},
+                      {"smoothing", {{"lambda", 0.5}, {"iterations", 8}, {"mask", "_SUPPLE_MUSH"}}}}}}));
     EXPECT_EQ(glb.root["extensionsRequired"], json({"EXT_texture_webp", "KHR_texture_basisu"}))
         << "textures with nothing but these";
     ASSERT_EQ(glb.root["meshes"][0]["primitives"].size(), 3u);

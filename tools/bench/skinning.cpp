@@ -18,7 +18,9 @@ struct WayOfSkinning {
 };
 constexpr WayOfSkinning kWays[] = {{"linear", SUPPLE_SKINNING_LINEAR},
                                    {"dual-quaternion", SUPPLE_SKINNING_DUAL_QUATERNION},
-                                   {"centers", SUPPLE_SKINNING_CENTERS_OF_ROTATION}};
+                                   {"centers", SUPPLE_SKINNING_CENTERS_OF_ROTATION},
+                                   {"mush", SUPPLE_SKINNING_DELTA_MUSH},
+                                   {"mush-light", SUPPLE_SKINNING_DELTA_MUSH_LIGHT}};
 constexpr size_t kOver = 1;
 
 class SkinningRace {

@@ -353,7 +353,7 @@ std::vector<uint32_t> Workbench::patchFaces(SuppleGroup group) const {
 Workbench::StaticBytes Workbench::staticBytes(SuppleGroup id) const {
     const runtime::Group& group = inside_->group(id);
     StaticBytes bytes;
-    bytes.deform = group.asset().buffers.size(0);
+    bytes.deform = group.asset().skin(group.instances().skinning()).buffers.size(0);
     for (const std::shared_ptr<runtime::SchemeTables>& scheme : group.asset().schemes) {
         if (&scheme->tables() == &group.surfaces()[0].tables()) {
             bytes.tables = scheme->buffers.size(0);

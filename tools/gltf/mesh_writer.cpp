@@ -5,6 +5,7 @@
 #include "cage/message.h"
 #include "cage/ngon_fans.h"
 #include "cage/refusal.h"
+#include "tools/gltf/smoothing_writer.h"
 #include "tools/gltf/soft_writer.h"
 
 #include <algorithm>
@@ -227,6 +228,7 @@ private:
         writeSkin(part, attributes);
         writePainted(part, character_.weights.jiggles, character_.jiggles.size(), jiggleAttribute, attributes);
         writePainted(part, character_.weights.cloths, character_.cloths.size(), clothAttribute, attributes);
+        writeMushMask(part, attributes);
 
         const auto vertexCount = static_cast<uint32_t>(part.corners.size());
         json primitive = {{"attributes", std::move(attributes)}, {"mode", 4}};
@@ -299,6 +301,18 @@ private:
                 weights.push_back(all[v].index == k ? all[v].weight : 0.0f);
             }
             attributes[nameOf(k)] = packer_.addFloats("SCALAR", weights, Target::vertices);
+        }
+    }
+
+    void writeMushMask(const WrittenPrimitive& part, json& attributes) {
+        std::vector<float> mask;
+        for (const uint32_t v : part.cageVertices) {
+            if (!character_.weights.mushMask.empty()) {
+                mask.push_back(character_.weights.mushMask[v]);
+            }
+        }
+        if (!mask.empty()) {
+            attributes[kMushMaskAttribute] = packer_.addFloats("SCALAR", mask, Target::vertices);
         }
     }
 

@@ -9,6 +9,7 @@
 #include "tools/gltf/mesh_writer.h"
 #include "tools/gltf/packer.h"
 #include "tools/gltf/part_weights.h"
+#include "tools/gltf/smoothing_writer.h"
 #include "tools/gltf/soft_writer.h"
 #include "tools/gltf/still_mesh_writer.h"
 
@@ -336,6 +337,9 @@ json writeMeshes(const Character& character, const Skins& skins, Packer& packer,
         if (const auto& skinning = part.parts[0].skinning) {
             mesh["extensions"]["SUPPLE_deformers"]["skinning"] = skinningModeName(*skinning);
         }
+        if (saysSmoothing(part)) {
+            mesh["extensions"]["SUPPLE_deformers"]["smoothing"] = writeSmoothing(part);
+        }
         if (!part.drivers.empty()) {
             mesh["extensions"]["SUPPLE_deformers"]["drivers"] = writeDrivers(part.drivers, packer);
         }
@@ -368,8 +372,9 @@ GlbFile toGlb(const Character& character) {
     json root = newRoot(character);
     root["extensionsUsed"] = json::array({"FB_ngon_encoding", "SUPPLE_mesh_cage"});
     if (std::any_of(character.parts.begin(), character.parts.end(),
-                    [](const Part& part) { return part.skinning.has_value(); }) ||
-        !character.drivers.empty() || !character.jiggles.empty() || !character.cloths.empty()) {
+                    [](const Part& part) { return part.skinning || part.smoothing; }) ||
+        !character.weights.mushMask.empty() || !character.drivers.empty() || !character.jiggles.empty() ||
+        !character.cloths.empty()) {
         root["extensionsUsed"].push_back("SUPPLE_deformers");
     }
     writeNodes(character, skins, root, file.warnings);

@@ -299,6 +299,9 @@ void printJson(const InspectOptions& options, const cage::Character& character, 
     json["uvMode"] = uvMode ? Json(cage::uvModeName(*uvMode)) : Json();
     const std::optional<cage::SkinningMode> skinning = character.parts[0].skinning;
     json["skinning"] = skinning ? Json(cage::skinningModeName(*skinning)) : Json();
+    const std::optional<cage::Smoothing> smoothing = character.parts[0].smoothing;
+    json["smoothing"] =
+        smoothing ? Json({{"lambda", smoothing->lambda}, {"iterations", smoothing->iterations}}) : Json();
     json["parts"] = partsToJson(character);
     json["vertices"] = cage.vertexCount();
     json["faces"] = cage.faceCount();
@@ -508,6 +511,12 @@ void printText(const InspectOptions& options, const cage::Character& character, 
     }
     if (const std::optional<cage::SkinningMode> skinning = character.parts[0].skinning) {
         printLine("skinning", cage::skinningModeName(*skinning));
+    }
+    if (const std::optional<cage::Smoothing> smoothing = character.parts[0].smoothing) {
+        char text[64];
+        std::snprintf(text, sizeof text, "lambda %g, %u iterations", static_cast<double>(smoothing->lambda),
+                      smoothing->iterations);
+        printLine("smoothing", text);
     }
     printLine("vertices", std::to_string(cage.vertexCount()) + " (" + std::to_string(character.sourceVertexCount) +
                               " in the file, " + std::to_string(character.seamVertexCount) + " merged at seams)");

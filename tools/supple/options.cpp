@@ -115,7 +115,7 @@ namespace {
 
 /// By SuppleUvInterpolation.
 /// By SuppleSkinning.
-constexpr const char* kSkinnings[] = {"linear", "dual-quaternion", "centers", "file"};
+constexpr const char* kSkinnings[] = {"linear", "dual-quaternion", "centers", "mush", "mush-light", "file"};
 static_assert(SUPPLE_SKINNING_FROM_FILE == std::size(kSkinnings) - 1);
 
 constexpr const char* kUvModes[] = {"file", "none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all"};

@@ -96,7 +96,7 @@ struct SchemeOptions {
 [[nodiscard]] SuppleFragmentRules rulesOf(const std::string& name);
 /// --uv-mode: "file", or a name of OpenSubdiv's.
 [[nodiscard]] SuppleUvInterpolation uvInterpolationOf(const std::string& name);
-/// --skinning: "linear", "dual-quaternion", "centers" or "file".
+/// --skinning: "linear", "dual-quaternion", "centers", "mush", "mush-light" or "file".
 [[nodiscard]] SuppleSkinning skinningOf(const std::string& name);
 [[nodiscard]] const char* skinningName(SuppleSkinning skinning);
 

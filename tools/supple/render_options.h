@@ -19,7 +19,7 @@ inline constexpr float kChordError = 0.25f;
 struct DrawOptions {
     std::string scheme = "auto"; ///< auto, a scheme's, or cage (the deformed cage itself)
     std::vector<host::PartScheme> partSchemes;
-    std::string skinning = "file";       ///< linear | dual-quaternion | centers | file
+    std::string skinning = "file";       ///< linear | dual-quaternion | centers | mush | mush-light | file
     std::string creases = "cut";         ///< cut | curve
     float sharpThreshold = 1.0f;         ///< see SuppleGroupDesc
     std::string rules = "catmull-clark"; ///< of fragments: catmull-clark | loop

@@ -228,7 +228,8 @@ void buildScheme(const ViewStage& stage, PanelWishes& wishes) {
         ImGui::EndCombo();
     }
     int skinning = stage.skinning();
-    if (ImGui::Combo("skinning", &skinning, "linear\0dual quaternion\0centers of rotation\0as the file says\0"))
+    if (ImGui::Combo("skinning", &skinning,
+                     "linear\0dual quaternion\0centers of rotation\0delta mush\0light delta mush\0as the file says\0"))
         wishes.skinning = static_cast<SuppleSkinning>(skinning);
 }
 

@@ -944,17 +944,26 @@ typedef enum SuppleVertexFormat {
 } SuppleVertexFormat;
 
 /** How several joints move one vertex. DUAL_QUATERNION keeps the girth of a limb that twists or bends, and bulges where
- * it bends far. CENTERS_OF_ROTATION keeps the girth too, with less of a bulge. Joints may scale and shear with all. A
- * vertex that follows one joint alone moves the same with all. docs/skinning.md compares them. */
+ * it bends far. CENTERS_OF_ROTATION keeps the girth too, with less of a bulge. DELTA_MUSH evens out rough weights, and
+ * keeps no volume. Joints may scale and shear with all. A vertex that follows one joint alone, as all its neighborhood
+ * does, moves the same with all. docs/skinning.md compares them. */
 typedef enum SuppleSkinning {
     SUPPLE_SKINNING_LINEAR = 0,
     SUPPLE_SKINNING_DUAL_QUATERNION = 1,
     /** Each vertex turns about a point of the rest pose. The first group that asks for it finds these points, one per
      * cage vertex, unless they are prepared (supple_prepare.h). */
     SUPPLE_SKINNING_CENTERS_OF_ROTATION = 2,
+    /** Weights are smoothed over the cage, and each vertex turns as its neighborhood does: for rigs whose weights are
+     * hard or rough. The first group that asks for it smooths them, unless they are prepared (supple_prepare.h). The
+     * file may say by how much (SUPPLE_deformers: smoothing). SUPPLE_ERROR_LIMIT if the cage has so many vertices and
+     * joints that this would take too long. */
+    SUPPLE_SKINNING_DELTA_MUSH = 3,
+    /** The same, but a vertex turns as the smoothed weights mix the joints' rotations. It takes half of the memory and
+     * of the time. */
+    SUPPLE_SKINNING_DELTA_MUSH_LIGHT = 4,
     /** What the file says of the meshes (SUPPLE_deformers: skinning): of the first part of which it says something. If
      * it says nothing, LINEAR. */
-    SUPPLE_SKINNING_FROM_FILE = 3,
+    SUPPLE_SKINNING_FROM_FILE = 5,
     SUPPLE_SKINNING_MAX_ENUM = 0x7FFFFFFF
 } SuppleSkinning;
 
@@ -1433,10 +1442,9 @@ typedef struct SuppleGroupInfo {
      * where it mirrors: SUPPLE_SCHEME_POLYGONS reads it. */
     SuppleBufferRange deformedCage;
     /** Per slot (stride bytes): per joint three rows of four floats, the 3x4 matrix transform * joint * inverse bind,
-     * which takes a cage vertex from the bind pose to its place; then a float weight per morph target. With
-     * SUPPLE_SKINNING_DUAL_QUATERNION and _CENTERS_OF_ROTATION: first the three rows of the transform; per joint the
-     * three rows of joint * inverse bind, then its rotation as a quaternion (x, y, z, w); then the weights. Null with
-     * SUPPLE_POSES_CAGE_BUFFER. */
+     * which takes a cage vertex from the bind pose to its place; then a float weight per morph target. With every
+     * SuppleSkinning but LINEAR: first the three rows of the transform; per joint the three rows of joint * inverse
+     * bind, then its rotation as a quaternion (x, y, z, w); then the weights. Null with SUPPLE_POSES_CAGE_BUFFER. */
     SuppleBufferRange poses;
     /** uint32 per visible instance (in a view: per instance that its camera sees): the slot, in rising order. Groups
      * without a view have more entries behind these: for every part that some instance hides, the slots of the visible

@@ -43,8 +43,8 @@ GltfBuilder skinnedBy(const std::string& first, const std::string& second) {
 }
 
 TEST(GltfDeformers, MeshesNameTheirSkinning) {
-    for (const SkinningMode mode :
-         {SkinningMode::linear, SkinningMode::dualQuaternion, SkinningMode::centersOfRotation}) {
+    for (const SkinningMode mode : {SkinningMode::linear, SkinningMode::dualQuaternion, SkinningMode::centersOfRotation,
+                                    SkinningMode::deltaMush, SkinningMode::deltaMushLight}) {
         const std::string named = R"({"skinning":")" + std::string(skinningModeName(mode)) + R"("})";
         const Character c = readWell(skinnedBy(named, "{}"), kStrict);
         EXPECT_EQ(c.parts[0].skinning, mode);
@@ -58,11 +58,55 @@ TEST(GltfDeformers, MeshesNameTheirSkinning) {
 
 TEST(GltfDeformers, OtherNamesAreToldApart) {
     const std::string place = "mesh 0 SUPPLE_deformers skinning: ";
-    EXPECT_EQ(saidOf(skinnedBy(R"({"skinning":"deltaMush"})", "{}").glb()), place + "\"deltaMush\" is not followed");
     const GltfBuilder other = skinnedBy(R"({"skinning":"centres"})", "{}");
     EXPECT_EQ(saidOf(other.glb()), place + "\"centres\" is not allowed; left out");
     EXPECT_EQ(messageOf(other), "t.glb: " + place + "\"centres\" is not allowed");
     EXPECT_EQ(messageOf(skinnedBy(R"({"skinning":3})", "{}")), "t.glb: " + place + "not a string");
+}
+
+TEST(GltfDeformers, MeshesSayHowTheyAreSmoothed) {
+    const Character c = readWell(skinnedBy(R"({"smoothing":{"lambda":2.5,"iterations":8}})", R"({"smoothing":{}})"));
+    EXPECT_EQ(c.parts[0].smoothing, (Smoothing{2.5f, 8}));
+    EXPECT_EQ(c.parts[1].smoothing, Smoothing());
+    EXPECT_EQ(c.warnings,
+              (Strings{"part \"b\": its smoothing is not that of part \"a\", which comes first and holds for "
+                       "all"}));
+    EXPECT_TRUE(c.weights.mushMask.empty());
+
+    const std::string place = "t.glb: mesh 0 SUPPLE_deformers smoothing";
+    const auto faultOf = [](const std::string& smoothing) {
+        return messageOf(skinnedBy("{\"smoothing\":" + smoothing + "}", "{}"));
+    };
+    EXPECT_EQ(faultOf("3"), "t.glb: mesh 0 SUPPLE_deformers smoothing: not an object");
+    EXPECT_EQ(faultOf(R"({"iterations":33})"), place + " iterations: 33: not from 1 to 32");
+    EXPECT_EQ(faultOf(R"({"iterations":0})"), place + " iterations: 0: not from 1 to 32");
+    EXPECT_EQ(faultOf(R"({"lambda":11})"), place + " lambda: not a number from 0.01 to 10");
+    EXPECT_EQ(faultOf(R"({"mask":"MUSH"})"),
+              place + " mask: \"MUSH\" is no name of an application's attribute: it has no _");
+    EXPECT_EQ(faultOf(R"({"mask":"_MUSH"})"), place + " mask: no primitive has \"_MUSH\"");
+}
+
+/// Of the first mesh alone: the other part is smoothed wholly.
+TEST(GltfDeformers, MasksAreRead) {
+    GltfBuilder b = skinnedBy("{}", "{}");
+    b.addFloats("SCALAR", {0, 0.25f, 0.5f});
+    b.addFloats("SCALAR", {0, 1.5f, 1});
+    const auto meshes = [](const char* accessor) {
+        return std::string(R"([{"extensions":{"SUPPLE_deformers":{"smoothing":{"mask":"_M"}}},"primitives":)") +
+               R"([{"attributes":{"POSITION":0,"_M":)" + accessor +
+               R"(}}]},{"primitives":[{"attributes":{"POSITION":0}}]}])";
+    };
+    b.meshes = meshes("1");
+    const Character c = readWell(b, kStrict);
+    ASSERT_EQ(c.weights.mushMask.size(), c.cage.vertexCount());
+    for (uint32_t v = 0; v < c.cage.vertexCount(); ++v) {
+        const glm::vec3& p = c.cage.positions[v];
+        const bool first = p.x < 5.0f;
+        EXPECT_EQ(c.weights.mushMask[v], first ? 0.25f * p.x + 0.5f * p.y : 1.0f) << v;
+    }
+    EXPECT_EQ(c.parts[0].smoothing, Smoothing());
+    b.meshes = meshes("2");
+    EXPECT_EQ(messageOf(b), "t.glb: mesh 0 primitive 0 _M[1]: not from 0 to 1");
 }
 
 TEST(GltfVisibility, HiddenNodesAreNotDrawn) {
