@@ -400,7 +400,7 @@ TEST(Cloths, AbsurdNumbersLeaveThem) {
 }
 
 TEST(Cloths, LongRunsStayFinite) {
-    // A million steps take 90 s: SUPPLE_CLOTH_STEPS=1000000.
+    // A million steps take minutes: SUPPLE_CLOTH_STEPS=1000000.
     const char* const asked = std::getenv("SUPPLE_CLOTH_STEPS");
     const int64_t steps = asked != nullptr ? std::atoll(asked) : 10'000;
     Hung cape(test::cape()), ball(test::ball());
