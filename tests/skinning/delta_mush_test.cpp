@@ -295,8 +295,8 @@ TEST(DeltaMush, BesideLinearSkinningOnRigs) {
             const test::LimbMeasure& wanted = light ? c.lightMush : c.mush;
             std::printf("  %3.0f (%.2f %.2f) %u", own.volume, own.thickness[0], own.thickness[1], own.turnedOver);
             EXPECT_NEAR(own.volume, wanted.volume, 1.5) << c.file << ", " << c.name;
-            EXPECT_NEAR(own.thickness[0], wanted.thickness[0], 0.025) << c.file << ", " << c.name;
-            EXPECT_NEAR(own.thickness[1], wanted.thickness[1], 0.025) << c.file << ", " << c.name;
+            EXPECT_NEAR(own.thickness[0], wanted.thickness[0], 0.04) << c.file << ", " << c.name;
+            EXPECT_NEAR(own.thickness[1], wanted.thickness[1], 0.04) << c.file << ", " << c.name;
             EXPECT_NEAR(own.turnedOver, wanted.turnedOver, 3.0) << c.file << ", " << c.name;
         }
         std::printf("\n");
