@@ -1,9 +1,11 @@
 // Vertices that jiggle, on the device: the words of the CPU's own steps, whatever the frame rate, and what hosts do to
 // them.
 #include "runtime/spring_clock.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/jiggling_groups.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/played_jiggles.h"
+#include "tests/support/swinging_jiggles.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
@@ -99,7 +101,7 @@ TEST_F(Jiggles, HaveTheWordsOfTheCpu) {
                     EXPECT_LT(apart, 0.07) << "the limit, and a turn";
                     EXPECT_TRUE(f > 0 || apart == 0.0) << "at rest in the pose";
                     EXPECT_TRUE(f < 4 || apart > 0.0) << "in the second step goals have a speed to differ from";
-                    moved = std::max(moved, apart);
+                    raise(moved, apart);
                 }
             }
             EXPECT_GT(moved, 0.02);
@@ -132,7 +134,7 @@ TEST_F(Jiggles, TheirGoalsHaveWhatDriversSet) {
             plain.jiggle(time);
             for (uint32_t i = 0; i < 2; ++i) {
                 EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
-                apart = std::max(apart, cagesApart(soft.shown(i), plain.shown(i)));
+                raise(apart, cagesApart(soft.shown(i), plain.shown(i)));
             }
         }
         EXPECT_GT(apart, 1e-3) << "drivers move something";
@@ -207,6 +209,18 @@ std::vector<std::vector<Floats>> shownAtSixths(CrowdContext& own, SuppleAsset as
     return shown;
 }
 
+/// At the end each instance shows something else than it would without one of the group's flags.
+void expectOthersWithout(uint32_t flag, CrowdContext& own, SuppleAsset asset, uint32_t flags,
+                         const std::vector<std::vector<Floats>>& shown) {
+    const auto sixths = static_cast<uint32_t>(shown.size() - 1);
+    const std::vector<std::vector<Floats>> without =
+        shownAtSixths(own, asset, flags & ~flag, jiggledFrames(30, sixths));
+    ASSERT_EQ(without.size(), shown.size());
+    for (size_t i = 0; i < shown.back().size(); ++i) {
+        EXPECT_GT(cagesApart(shown.back()[i], without.back()[i]), 1e-3) << i;
+    }
+}
+
 TEST_F(Jiggles, DoNotDependOnTheFrameRate) {
     const ValidationGuard guard;
     constexpr uint32_t kSixths = 6;
@@ -223,7 +237,7 @@ TEST_F(Jiggles, DoNotDependOnTheFrameRate) {
     irregular.erase(std::unique(irregular.begin(), irregular.end()), irregular.end());
     // Beside springs, what hangs on joints that swing jiggles by how they swing.
     for (const bool swings : {false, true}) {
-        const SuppleAsset asset = own.createAsset(jigglingWren(swings ? kWrenSprings : "\"X\":{}"));
+        const SuppleAsset asset = swings ? swingingAndJigglingWren(own) : own.createAsset(jigglingWren());
         const uint32_t flags = kSoft | (swings ? SUPPLE_GROUP_SPRINGS : 0);
         const std::vector<std::vector<Floats>> first = shownAtSixths(own, asset, flags, jiggledFrames(60, kSixths));
         ASSERT_EQ(first.size(), kSixths + 1);
@@ -231,6 +245,10 @@ TEST_F(Jiggles, DoNotDependOnTheFrameRate) {
             EXPECT_EQ(shownAtSixths(own, asset, flags, jiggledFrames(rate, kSixths)), first) << rate;
         }
         EXPECT_EQ(shownAtSixths(own, asset, flags, irregular), first);
+        expectOthersWithout(kSoft, own, asset, flags, first);
+        if (swings) {
+            expectOthersWithout(SUPPLE_GROUP_SPRINGS, own, asset, flags, first);
+        }
     }
 }
 
@@ -241,7 +259,7 @@ TEST_F(Jiggles, HaveTheSameWordsInBothMappingsAndSharedDispatches) {
     const std::vector<double> times = jiggledFrames(24, 5);
     std::vector<std::vector<Floats>> first;
     for (CrowdContext* const own : contexts) {
-        const SuppleAsset asset = own->createAsset(jigglingWren(kWrenSprings));
+        const SuppleAsset asset = swingingAndJigglingWren(*own);
         const auto shown = shownAtSixths(*own, asset, kSoft | SUPPLE_GROUP_SPRINGS, times);
         first = first.empty() ? shown : first;
         EXPECT_EQ(shown, first);
@@ -271,6 +289,31 @@ TEST_F(Jiggles, AreRefusedWhereTheyCannotBe) {
     }
     (void)own.takeError();
     EXPECT_EQ(created(playedGroup(own.asset(kWren), 1, kSoft)), SUPPLE_OK) << "nothing jiggles";
+}
+
+TEST_F(Jiggles, AllocateNothingInFrames) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    JigglingGroup stage(own, playedGroup(own.createAsset(jigglingWren()), 4, kSoft | SUPPLE_GROUP_TRANSITIONS));
+    ASSERT_TRUE(stage.crowd.valid());
+    for (uint32_t i = 0; i < 4; ++i) {
+        stage.play(i, 1, 0.1 * i);
+    }
+    runtime::Group& group = stage.group();
+    runtime::Playback& playback = *group.poses().playback();
+    double time = 0.0;
+    uint64_t frame = 1000, steps = 0;
+    stage.jiggle(time);
+    const uint64_t before = allocationsCounted();
+    for (uint32_t n = 0; n < 200; ++n) {
+        time += 0.01 * (n % 13); // none are due, or some, or all eight
+        const AllocationCount count;
+        playback.setTime(time);
+        playback.setTransform(n % 4, glm::translate(glm::mat4(1.0f), glm::vec3(0.01f * static_cast<float>(n))));
+        playback.listPoses(++frame, group.windows(), 4, [](uint32_t) { return true; });
+        steps += playback.listedPoses(0).poses.count - playback.listedPoses(0).shown;
+    }
+    EXPECT_EQ(allocationsCounted(), before);
+    EXPECT_GT(steps, 1000u);
 }
 
 TEST_F(Jiggles, TakeWindowsOfInstances) {
