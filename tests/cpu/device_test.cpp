@@ -6,6 +6,7 @@
 #include "tests/support/pm_zoo.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 #include "tools/common/procedural.h"
 
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "runtime/points/point_stencils.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_zoo.h"
-#include "tests/support/prep_surface.h"
+#include "tests/support/worst.h"
 #include "tools/common/cage_arrays.h"
 #include "tools/common/procedural.h"
 

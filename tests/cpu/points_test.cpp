@@ -11,6 +11,7 @@
 #include "tests/support/pm_zoo.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 #include "tools/common/procedural.h"
 #include "tools/reference/pm.h"
 #include "tools/reference/prep.h"

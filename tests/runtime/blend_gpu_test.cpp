@@ -5,6 +5,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 
 #include <cstdio>
 

@@ -6,6 +6,7 @@
 #include "tests/support/pm_surface.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/worst.h"
 
 #include <array>
 #include <gtest/gtest.h>

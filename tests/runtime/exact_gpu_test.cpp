@@ -11,6 +11,7 @@
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 
 #include <algorithm>
 #include <array>

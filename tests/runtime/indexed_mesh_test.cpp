@@ -9,6 +9,7 @@
 #include "tests/support/pm_zoo.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 #include "tools/common/procedural.h"
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 #include "tools/common/cage_arrays.h"
 
 #include <cstdio>

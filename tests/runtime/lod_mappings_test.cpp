@@ -11,6 +11,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/tangent_word.h"
+#include "tests/support/worst.h"
 #include "tools/common/cage_arrays.h"
 #include "tools/common/procedural.h"
 

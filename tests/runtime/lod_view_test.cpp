@@ -9,8 +9,8 @@
 #include "tests/support/lod_surface.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_surface.h"
-#include "tests/support/prep_surface.h"
 #include "tests/support/test_view.h"
+#include "tests/support/worst.h"
 #include "tools/common/procedural.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -8,6 +8,7 @@
 #ifdef SUPPLE_HAS_OPENSUBDIV
 #include "tests/support/limit_figures.h"
 #include "tests/support/loop_limit.h"
+#include "tests/support/worst.h"
 #endif
 
 #include <cstdio>

@@ -13,6 +13,7 @@
 #include "tests/support/subdivision_zoo.h"
 #include "tests/support/tangent_word.h"
 #include "tests/support/test_view.h"
+#include "tests/support/worst.h"
 #include "tools/common/procedural.h"
 #include "tools/gltf/writer.h"
 

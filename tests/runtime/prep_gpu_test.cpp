@@ -5,6 +5,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/prep_vectors.h"
+#include "tests/support/worst.h"
 #include "tools/common/procedural.h"
 #include "tools/reference/prep.h"
 

@@ -2,6 +2,7 @@
 #include "runtime/api/descriptions.h"
 #include "surface/table_header.h"
 #include "tests/support/crowd.h"
+#include "tests/support/gpu_comparison.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/test_view.h"
 
@@ -12,8 +13,6 @@
 
 namespace supple::test {
 namespace {
-
-constexpr SuppleMapping kMappings[] = {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE};
 
 std::vector<std::byte> preparedBytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary);

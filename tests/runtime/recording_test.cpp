@@ -19,6 +19,7 @@ using runtime::RecordingReader;
 class Recordings : public CrowdContexts {};
 
 constexpr uint32_t kHostFrames = 40;
+constexpr std::array kNarrow = {SUPPLE_MAPPING_NARROW}, kWide = {SUPPLE_MAPPING_WIDE};
 
 /// What the host has recorded that did something by `seed`, beginning with frame `first` (0: before anything is
 /// created).
@@ -46,12 +47,8 @@ TEST_F(Recordings, MadeAgainHaveTheSameHashes) {
     std::set<size_t> calls;
     for (const uint32_t seed : {1u, 2u, 3u}) {
         const Recorded recorded = recordedHost(*testDevice(), SUPPLE_MAPPING_NARROW, seed, 0, kHostFrames);
-        const ReadRecording own = read(recorded.bytes);
-        EXPECT_TRUE(own.ended);
+        const ReadRecording own = expectReplayed(recorded, 301, kNarrow);
         calls.insert(own.calls.begin(), own.calls.end());
-        const size_t compared = expectSame(own.hashes, replay(*testDevice(), recorded.bytes));
-        EXPECT_EQ(compared, own.hashes.size());
-        EXPECT_GT(compared, 300u);
     }
     for (size_t call = 0; call < runtime::kCallNames.size(); ++call) {
         EXPECT_TRUE(calls.contains(call) || call == runtime::kCallNumber<runtime::calls::SetDepthPyramid>)
@@ -61,19 +58,13 @@ TEST_F(Recordings, MadeAgainHaveTheSameHashes) {
 
 TEST_F(Recordings, HaveTheSameHashesInTheOtherMapping) {
     const Recorded recorded = recordedHost(*testDevice(), SUPPLE_MAPPING_NARROW, 4, 0, 12);
-    const ReadRecording own = read(recorded.bytes);
-    tools::Replayer::Options options;
-    options.mapping = SUPPLE_MAPPING_WIDE;
-    EXPECT_EQ(expectSame(own.hashes, replay(*testDevice(), recorded.bytes, options)), own.hashes.size());
+    expectReplayed(recorded, 90, kWide);
 }
 
 TEST_F(Recordings, HaveTheSameHashesWhereGroupsShareDispatches) {
     const Recorded recorded =
         recordedHost(*testDevice(), SUPPLE_MAPPING_WIDE, 8, 0, 8, SUPPLE_CONTEXT_SHARED_DISPATCHES);
-    const ReadRecording own = read(recorded.bytes);
-    tools::Replayer::Options options;
-    options.mapping = SUPPLE_MAPPING_NARROW;
-    EXPECT_EQ(expectSame(own.hashes, replay(*testDevice(), recorded.bytes, options)), own.hashes.size());
+    expectReplayed(recorded, 60, kNarrow);
 }
 
 TEST_F(Recordings, MayBeginAgain) {
@@ -88,9 +79,7 @@ TEST_F(Recordings, MayBeginAgain) {
         context.beginFrame();
         ASSERT_EQ(suppleStopRecording(context.handle()), SUPPLE_OK);
         host.run(frame + 2);
-        const ReadRecording own = read(recorded.bytes);
-        EXPECT_GT(own.hashes.size(), 5u);
-        EXPECT_EQ(expectSame(own.hashes, replay(*testDevice(), recorded.bytes)), own.hashes.size());
+        expectReplayed(recorded, 6, kNarrow);
     }
 }
 
@@ -98,10 +87,7 @@ TEST_F(Recordings, ThatBeginLateBeginWithWhatThereIs) {
     for (const uint32_t first : {1u, 2u, 7u, 16u, 31u}) {
         SCOPED_TRACE(first);
         const Recorded recorded = recordedHost(*testDevice(), SUPPLE_MAPPING_NARROW, 10 + first, first, first + 8);
-        const ReadRecording own = read(recorded.bytes);
-        const size_t compared = expectSame(own.hashes, replay(*testDevice(), recorded.bytes));
-        EXPECT_EQ(compared, own.hashes.size());
-        EXPECT_GT(compared, 50u);
+        expectReplayed(recorded, 51, kNarrow);
     }
 }
 

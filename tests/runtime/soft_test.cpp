@@ -1,10 +1,12 @@
 // What is soft, on the device: the words of the CPU's own steps, whatever the frame rate, and what hosts do to
 // them.
 #include "runtime/spring_clock.h"
+#include "tests/support/allocation_count.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/played_soft.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/soft_groups.h"
+#include "tests/support/swinging_jiggles.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
@@ -157,7 +159,7 @@ TEST_F(Soft, TheirGoalsHaveWhatDriversSet) {
             plain.frame(time);
             for (uint32_t i = 0; i < 2; ++i) {
                 EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
-                apart = std::max(apart, cagesApart(soft.shown(i), plain.shown(i)));
+                raise(apart, cagesApart(soft.shown(i), plain.shown(i)));
             }
         }
         EXPECT_GT(apart, 1e-3) << "drivers move something";
@@ -235,6 +237,17 @@ std::vector<std::vector<Floats>> shownAtSixths(CrowdContext& own, SuppleAsset as
     return shown;
 }
 
+/// At the end each instance shows something else than it would without one of the group's flags.
+void expectOthersWithout(uint32_t flag, CrowdContext& own, SuppleAsset asset, uint32_t flags,
+                         const std::vector<std::vector<Floats>>& shown) {
+    const auto sixths = static_cast<uint32_t>(shown.size() - 1);
+    const std::vector<std::vector<Floats>> without = shownAtSixths(own, asset, flags & ~flag, softFrames(30, sixths));
+    ASSERT_EQ(without.size(), shown.size());
+    for (size_t i = 0; i < shown.back().size(); ++i) {
+        EXPECT_GT(cagesApart(shown.back()[i], without.back()[i]), 1e-3) << i;
+    }
+}
+
 TEST_F(Soft, DoNotDependOnTheFrameRate) {
     const ValidationGuard guard;
     constexpr uint32_t kSixths = 6;
@@ -250,16 +263,20 @@ TEST_F(Soft, DoNotDependOnTheFrameRate) {
     std::sort(irregular.begin(), irregular.end());
     irregular.erase(std::unique(irregular.begin(), irregular.end()), irregular.end());
     // Beside springs, what hangs on joints that swing jiggles by how they swing.
-    const SuppleAsset assets[] = {own.createAsset(jigglingWren()), own.createAsset(jigglingWren(kWrenSprings)),
-                                  own.asset(kCapedFile)};
+    const SuppleAsset assets[] = {own.createAsset(jigglingWren()), swingingAndJigglingWren(own), own.asset(kCapedFile)};
     for (const SuppleAsset& asset : assets) {
-        const uint32_t flags = kSoft | (&asset == &assets[1] ? SUPPLE_GROUP_SPRINGS : 0);
+        const bool swings = &asset == &assets[1];
+        const uint32_t flags = kSoft | (swings ? SUPPLE_GROUP_SPRINGS : 0);
         const std::vector<std::vector<Floats>> first = shownAtSixths(own, asset, flags, softFrames(60, kSixths));
         ASSERT_EQ(first.size(), kSixths + 1);
         for (const uint32_t rate : {24u, 30u, 90u, 144u}) {
             EXPECT_EQ(shownAtSixths(own, asset, flags, softFrames(rate, kSixths)), first) << rate;
         }
         EXPECT_EQ(shownAtSixths(own, asset, flags, irregular), first);
+        expectOthersWithout(kSoft, own, asset, flags, first);
+        if (swings) {
+            expectOthersWithout(SUPPLE_GROUP_SPRINGS, own, asset, flags, first);
+        }
     }
 }
 
@@ -270,7 +287,7 @@ TEST_F(Soft, HaveTheSameWordsInBothMappingsAndSharedDispatches) {
     const std::vector<double> times = softFrames(24, 5);
     std::vector<std::vector<Floats>> firstWren, firstCaped;
     for (CrowdContext* const own : contexts) {
-        const SuppleAsset wren = own->createAsset(jigglingWren(kWrenSprings));
+        const SuppleAsset wren = swingingAndJigglingWren(*own);
         const auto shown = shownAtSixths(*own, wren, kSoft | SUPPLE_GROUP_SPRINGS, times);
         const auto caped = shownAtSixths(*own, own->asset(kCapedFile), kSoft, times);
         firstWren = firstWren.empty() ? shown : firstWren;
@@ -303,6 +320,31 @@ TEST_F(Soft, AreRefusedWhereTheyCannotBe) {
     }
     (void)own.takeError();
     EXPECT_EQ(created(playedGroup(own.asset(kWren), 1, kSoft)), SUPPLE_OK) << "nothing jiggles";
+}
+
+TEST_F(Soft, AllocateNothingInFrames) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    SoftGroup stage(own, playedGroup(own.createAsset(jigglingWren()), 4, kSoft | SUPPLE_GROUP_TRANSITIONS));
+    ASSERT_TRUE(stage.crowd.valid());
+    for (uint32_t i = 0; i < 4; ++i) {
+        stage.play(i, 1, 0.1 * i);
+    }
+    runtime::Group& group = stage.group();
+    runtime::Playback& playback = *group.poses().playback();
+    double time = 0.0;
+    uint64_t frame = 1000, steps = 0;
+    stage.frame(time);
+    const uint64_t before = allocationsCounted();
+    for (uint32_t n = 0; n < 200; ++n) {
+        time += 0.01 * (n % 13); // none are due, or some, or all eight
+        const AllocationCount count;
+        playback.setTime(time);
+        playback.setTransform(n % 4, glm::translate(glm::mat4(1.0f), glm::vec3(0.01f * static_cast<float>(n))));
+        playback.listPoses(++frame, group.windows(), 4, [](uint32_t) { return true; });
+        steps += playback.listedPoses(0).poses.count - playback.listedPoses(0).shown;
+    }
+    EXPECT_EQ(allocationsCounted(), before);
+    EXPECT_GT(steps, 1000u);
 }
 
 TEST_F(Soft, TakeWindowsOfInstances) {

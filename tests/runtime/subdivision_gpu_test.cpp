@@ -6,6 +6,7 @@
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 #include "tools/reference/fragments.h"
 
 #include <cstdio>

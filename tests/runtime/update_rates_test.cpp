@@ -7,6 +7,7 @@
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/test_view.h"
+#include "tests/support/worst.h"
 #include "tests/support/wrapped_vulkan.h"
 
 #include <algorithm>
@@ -360,7 +361,7 @@ TEST_F(UpdateRates, DoNotLagAndStayWithinWhatWasMeasured) {
                 skinning::deformLikeTheDevice(table, exact.group().instances().poseLayout(),
                                               shownAt(exact, i / 3, time), there);
                 for (size_t v = 0; v < here.size(); ++v) {
-                    most[i] = std::max(most[i], static_cast<double>(glm::length(glm::vec3(here[v] - there[v]))));
+                    raise(most[i], static_cast<double>(glm::length(glm::vec3(here[v] - there[v]))));
                 }
             }
         }

@@ -15,6 +15,7 @@
 #include "skinning/update_errors.h"
 #include "tests/support/json_vectors.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/worst.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,14 +120,13 @@ TEST(Drivers, SolutionIsThatOfFloat64) {
         for (size_t p = 0; p < poses.size(); ++p) {
             const std::vector<float> own = driven.weights({{2, poses[p]}});
             for (size_t t = 0; t < poses.size(); ++t) {
-                atPoses = std::max(atPoses, std::abs(static_cast<double>(own[t]) - (t == p ? 1.0 : 0.0)));
+                test::raise(atPoses, std::abs(static_cast<double>(own[t]) - (t == p ? 1.0 : 0.0)));
             }
         }
         for (size_t q = 0; q < set.at("queries").size(); ++q) {
             const std::vector<float> own = driven.weights({{2, vec4Of(set.at("queries")[q])}});
             for (size_t t = 0; t < poses.size(); ++t) {
-                elsewhere =
-                    std::max(elsewhere, std::abs(static_cast<double>(own[t]) - set.at("weights")[q][t].get<double>()));
+                test::raise(elsewhere, std::abs(static_cast<double>(own[t]) - set.at("weights")[q][t].get<double>()));
             }
         }
         const bool warned = solved->condition > 100.0 || solved->closestDegrees < 10.0; // as the reader does
@@ -378,7 +378,7 @@ TEST(Drivers, ErrorsOfPackedClipsCountWhatTheySet) {
         b.morphWeights = shownAt(packed, packed.clips[c], time);
         const std::vector<glm::dvec3> from = deformOnCpu(plain, a), to = deformOnCpu(packed, b);
         for (size_t v = 0; v < from.size(); ++v) {
-            most = std::max(most, glm::length(from[v] - to[v]) / extent);
+            test::raise(most, glm::length(from[v] - to[v]) / extent);
         }
     }
     EXPECT_LE(most, 1.1 * kError);

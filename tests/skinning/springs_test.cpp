@@ -5,6 +5,7 @@
 #include "skinning/clip_table.h"
 #include "tests/support/json_vectors.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/worst.h"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +50,7 @@ TEST(Springs, ChainIsThatOfFloat64) {
                 directionOr(swungTail(last, before, axis, stiffness, keep, vec3(g[0], g[1], g[2]) * pull) - head, axis);
             turned = directionOr(pushedOut(head + turned * size, radius, point, way) - head, turned);
             tail = {head + turned * size, last};
-            stretch = std::max(stretch, std::abs(static_cast<double>(glm::distance(tail.last, head) / size) - 1.0));
+            test::raise(stretch, std::abs(static_cast<double>(glm::distance(tail.last, head) / size) - 1.0));
             // Joints below hang on it.
             axis = turnedVector(swingTurn(axis, turned), axis);
             head = tail.last;
@@ -57,7 +58,7 @@ TEST(Springs, ChainIsThatOfFloat64) {
         for (size_t j = 0; j < joints && (n + 1) % every == 0; ++j) {
             for (size_t i = 0; i < 3; ++i) {
                 const double wanted = data.at("tails")[n / every][3 * j + i].get<double>();
-                off = std::max(off, std::abs(wanted - static_cast<double>(tails[j].last[static_cast<int>(i)])));
+                test::raise(off, std::abs(wanted - static_cast<double>(tails[j].last[static_cast<int>(i)])));
             }
         }
     }
@@ -83,7 +84,7 @@ TEST(Springs, ATailKeepsItsLengthForAMillionSteps) {
             next = pushedOut(next, 0.02f, ball, noWay);
             way = directionOr(next - head, way);
             next = head + way * 0.1f;
-            worst = std::max(worst, std::abs(10.0 * static_cast<double>(glm::distance(next, head)) - 1.0));
+            test::raise(worst, std::abs(10.0 * static_cast<double>(glm::distance(next, head)) - 1.0));
             before = last;
             last = next;
         }

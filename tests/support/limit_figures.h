@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/support/meshes.h"
-#include "tests/support/prep_surface.h"
+#include "tests/support/worst.h"
 
 #include <algorithm>
 #include <cmath>

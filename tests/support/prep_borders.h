@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/support/prep_surface.h"
+#include "tests/support/worst.h"
 
 #include <cstdio>
 #include <cstring>

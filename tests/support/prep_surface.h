@@ -3,11 +3,9 @@
 
 #include "tools/reference/prep.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -16,11 +14,6 @@ namespace supple::test {
 /// Angle between two directions in degrees; robust near 0 and 180.
 inline double angleDegrees(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / std::numbers::pi;
-}
-
-/// Keeps the largest value; a NaN counts as infinite, so that it cannot hide behind a comparison.
-inline void raise(double& worst, double value) {
-    worst = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(worst, value);
 }
 
 /// The pair (k / rate, 1 - k / rate) of a sample, both correctly rounded.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <supple/supple_recording.h>
+#include <utility>
 #include <variant>
 
 namespace supple::test {
@@ -67,7 +68,11 @@ Hashes replay(host::Device& device, std::span<const std::byte> recording, tools:
     Status status = success();
     while (status) {
         const auto event = reader->next();
-        if (!event || !*event) {
+        if (!event) {
+            ADD_FAILURE() << event.error().message;
+            break;
+        }
+        if (!*event) {
             break;
         }
         status = (*replayer)->play(**event);
@@ -94,6 +99,25 @@ size_t expectSame(const Hashes& recorded, const Hashes& replayed) {
                                        << std::get<3>(key);
     }
     return compared;
+}
+
+ReadRecording expectReplayed(const Recorded& recorded, size_t least, std::span<const SuppleMapping> mappings) {
+    ReadRecording own = read(recorded.bytes);
+    EXPECT_TRUE(own.ended);
+    EXPECT_GE(own.hashes.size(), least);
+    for (const SuppleMapping mapping : mappings) {
+        SCOPED_TRACE(mappingName(mapping));
+        tools::Replayer::Options options;
+        options.mapping = mapping;
+        EXPECT_EQ(expectSame(own.hashes, replay(*testDevice(), recorded.bytes, std::move(options))), own.hashes.size());
+    }
+    return own;
+}
+
+ReadRecording expectReplayed(SuppleContext context, const Recorded& recorded, size_t least,
+                             std::span<const SuppleMapping> mappings) {
+    EXPECT_EQ(suppleStopRecording(context), SUPPLE_OK);
+    return expectReplayed(recorded, least, mappings);
 }
 
 } // namespace supple::test

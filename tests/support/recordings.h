@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/support/crowd.h"
+#include "tests/support/gpu_comparison.h"
 #include "tools/replay/replayer.h"
 
 #include <array>
@@ -34,11 +35,18 @@ struct ReadRecording {
 };
 [[nodiscard]] ReadRecording read(std::span<const std::byte> recording);
 
-/// What another context makes of the recording. A call that fails is a failure.
+/// What another context makes of the recording. What cannot be read is a failure, and so is a call that fails.
 [[nodiscard]] Hashes replay(host::Device& device, std::span<const std::byte> recording,
                             tools::Replayer::Options options = {});
 
 /// How many hashes of the recording the replay has; others are failures.
 size_t expectSame(const Hashes& recorded, const Hashes& replayed);
+
+/// The recording has ended and has at least so many hashes. Other contexts, one in each mapping, have all of them.
+ReadRecording expectReplayed(const Recorded& recorded, size_t least,
+                             std::span<const SuppleMapping> mappings = kMappings);
+/// The same of one that goes on: it is stopped first.
+ReadRecording expectReplayed(SuppleContext context, const Recorded& recorded, size_t least,
+                             std::span<const SuppleMapping> mappings = kMappings);
 
 } // namespace supple::test

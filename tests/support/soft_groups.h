@@ -3,9 +3,8 @@
 
 #include "tests/support/played_group.h"
 #include "tests/support/soft_assets.h"
+#include "tests/support/worst.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <vector>
@@ -16,11 +15,7 @@ inline constexpr uint32_t kSoft = SUPPLE_GROUP_SOFT;
 using Floats = std::vector<float>;
 
 inline double cagesApart(const Floats& a, const Floats& b) {
-    double most = 0.0;
-    for (size_t k = 0; k < a.size(); ++k) {
-        most = std::max(most, std::abs(static_cast<double>(a[k]) - static_cast<double>(b[k])));
-    }
-    return most;
+    return farthestApart(a, b);
 }
 
 /// A group of cages of which something is soft.

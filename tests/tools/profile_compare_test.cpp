@@ -4,6 +4,7 @@
 #include "tools/supple/profile_report.h"
 #include "tools/supple/time_history.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -207,15 +208,14 @@ TEST(ProfileTrace, ClocksThatWereReadTogetherLieOnOneAxis) {
     run.clocks = {{1e7, 5e9, 100.0}, {2e7, 5e9 + 1.0002e7, 300.0}}; // the device's clock is 0.02 % slow
     const nlohmann::ordered_json trace = toTrace({}, {&run, 1});
     EXPECT_EQ(trace["otherData"]["clocks"], "read together, within 0.300 us");
-    bool counters = false;
-    for (const auto& event : trace["traceEvents"]) {
-        counters = counters || event["ph"] == "C";
-        if (event["ph"] == "X" && event["tid"] == 1 && event["name"] == "deform" && event["ts"] > 5.0005e6) {
-            EXPECT_NEAR(event["ts"].get<double>(), (5e9 + 1.0002e7) / 1e3, 1e-3);
-            break;
-        }
-    }
-    EXPECT_TRUE(counters);
+    const auto& events = trace["traceEvents"];
+    const auto isCounter = [](const auto& event) { return event["ph"] == "C"; };
+    EXPECT_TRUE(std::any_of(events.begin(), events.end(), isCounter));
+    const auto deform = std::find_if(events.begin(), events.end(), [](const auto& event) {
+        return event["ph"] == "X" && event["tid"] == 1 && event["name"] == "deform" && event["ts"] > 5.0005e6;
+    });
+    ASSERT_NE(deform, events.end());
+    EXPECT_NEAR((*deform)["ts"].get<double>(), (5e9 + 1.0002e7) / 1e3, 1e-3);
 }
 
 } // namespace

@@ -1044,8 +1044,8 @@ typedef enum SuppleGroupFlags {
      * An instance that was just created, or whose time has gone back or forward by more than 8 steps, begins with its
      * joints at rest in the pose; so does one that was hidden, or out of a view's sight, for more than 8 steps.
      * suppleTeleport keeps how they hang. SUPPLE_GROUP_POSE_UNSEEN makes them independent of cameras. Device memory for
-     * an instance: 10 times the matrices of all nodes, and 64 bytes for each joint. It does not go with
-     * SUPPLE_GROUP_UPDATE_RATES.
+     * an instance: 9 times the matrices of all nodes, 64 bytes for each joint that swings, twice what is played, and
+     * half a KiB. It does not go with SUPPLE_GROUP_UPDATE_RATES.
      *
      * With SUPPLE_POSES_SET the CPU runs the steps of all visible instances, in sight or not, in suppleRecord. Their
      * time is SuppleRecordDesc.time. A step is posed straight between the pose of the frame before and that of its own,

@@ -46,7 +46,7 @@ typedef enum SupplePointFormat {
     SUPPLE_POINT_FRAME_48 = 0,
     /** The same, then the position in the frame before (in this frame's coordinates, suppleSetOrigin), and how much
      * larger the surface is at the point than in the bind pose (an area). A point without a past has its own position:
-     * in the first frame of the set, and where SUPPLE_GROUP_MOTION has none. */
+     * in the first frame of the set, and where SUPPLE_GROUP_MOTION has none. The set keeps 16 bytes more a point. */
     SUPPLE_POINT_FRAME_64 = 1,
     SUPPLE_POINT_VERTEX_16 = 2, /**< position and normal, as SUPPLE_VERTEX_16 */
     /** No frame: the derivatives of the position by a and by b of the point, each x, y, z, 0. */
@@ -136,8 +136,9 @@ typedef struct SupplePointQuery {
 /** Finds points on the surfaces of a group, on the CPU: for a set, or to be kept in a file. No device is waited for.
  *
  * out: query->count points; null if there are none. Like a first set, the first call for a group makes its surfaces.
- * NEAREST begins from 16 samples a face, which the first call in the bind pose makes and keeps (1 KB a face); with a
- * cage each call makes its own. Then a point takes about 0.1 ms. UV and SCATTER go over all faces once in each call.
+ * NEAREST begins from samples: 16 a triangle or quad; of a larger face 16 a side up to 8 sides, 4 up to 32, one beyond.
+ * The first call in the bind pose makes and keeps them (50 bytes each); with a cage each call makes its own. Then a
+ * point takes about 0.1 ms. UV and SCATTER go over all faces once in each call.
  * The result is the same on every machine up to rounding.
  *
  * Errors: a stale handle; numbers that are not finite or beyond SUPPLE_MAX_COORDINATE; a cage of another number of

@@ -1,9 +1,9 @@
 // The masks of limits at vertices, against the points that steps of subdivision make.
 #include "cpu/fragment.h"
 #include "surface/chains/arrangement.h"
-#include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 #include "tools/reference/fragments.h"
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 #include "cpu/catmull_clark.h"
 #include "tests/support/json_vectors.h"
 #include "tests/support/meshes.h"
-#include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 #include "tools/reference/fragments.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // The exact limit surface of Loop against the fragments at their samples, and against its own derivatives.
 #include "cpu/loop.h"
 #include "tests/support/meshes.h"
-#include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 
 #include <cmath>
 #include <cstdio>

@@ -3,6 +3,7 @@
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_vectors.h"
 #include "tests/support/pm_zoo.h"
+#include "tests/support/worst.h"
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 #include "tests/support/pm_surface.h"
 #include "tests/support/pm_vectors.h"
 #include "tests/support/vector_files.h"
+#include "tests/support/worst.h"
 
 #include <cmath>
 #include <cstdio>

@@ -4,6 +4,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/prep_borders.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/worst.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -3,6 +3,7 @@
 #include "tests/support/prep_borders.h"
 #include "tests/support/prep_vectors.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/worst.h"
 
 #include "tools/common/procedural.h"
 

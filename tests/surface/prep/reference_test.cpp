@@ -3,6 +3,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/prep_surface.h"
 #include "tests/support/prep_vectors.h"
+#include "tests/support/worst.h"
 
 #include "surface/build.h"
 #include "tools/common/procedural.h"

@@ -3,6 +3,7 @@
 #include "tests/support/prep_surface.h"
 #include "tests/support/prep_vectors.h"
 #include "tests/support/vector_files.h"
+#include "tests/support/worst.h"
 
 #include <cstdio>
 

@@ -1,10 +1,10 @@
 // The reference against OpenSubdiv's uniform refinement and its limit masks, at equal depths.
 #include "cage/formats/reader.h"
 #include "tests/support/meshes.h"
-#include "tests/support/prep_surface.h"
 #include "tests/support/shared_assets.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_zoo.h"
+#include "tests/support/worst.h"
 
 #include <algorithm>
 #include <cstdio>

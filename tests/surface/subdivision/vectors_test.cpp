@@ -1,9 +1,9 @@
 // The reference against the stored vectors.
 #include "tests/support/meshes.h"
-#include "tests/support/prep_surface.h"
 #include "tests/support/subdivision_surface.h"
 #include "tests/support/subdivision_vectors.h"
 #include "tests/support/vector_files.h"
+#include "tests/support/worst.h"
 
 #include <cstdio>
 #include <map>
