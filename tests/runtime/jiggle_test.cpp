@@ -5,7 +5,9 @@
 #include "tests/support/jiggling_groups.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/played_jiggles.h"
+#include "tests/support/rigged_tube.h"
 #include "tests/support/swinging_jiggles.h"
+#include "tests/support/worst.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
