@@ -6,6 +6,7 @@
 #ifdef SUPPLE_HAS_OPENSUBDIV
 #include "tests/support/catmull_clark_limit.h"
 #include "tests/support/limit_figures.h"
+#include "tests/support/prep_surface.h"
 #include "tests/support/worst.h"
 #endif
 

@@ -3,6 +3,7 @@
 #include "tests/support/recordings.h"
 #include "tests/support/soft_groups.h"
 #include "tests/support/test_view.h"
+#include "tests/support/worst.h"
 
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>

@@ -7,6 +7,7 @@
 #include "tests/support/rigged_tube.h"
 #include "tests/support/soft_groups.h"
 #include "tests/support/swinging_jiggles.h"
+#include "tests/support/worst.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>

@@ -12,6 +12,7 @@
 #include "cage/gltf/reader.h"
 #include "tests/support/catmull_clark_limit.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/worst.h"
 #endif
 
 namespace supple::surface::pm {
