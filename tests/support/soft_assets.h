@@ -11,6 +11,8 @@
 
 namespace supple::test {
 
+/// A round figure that hops (tests/support/belly.py).
+inline const std::string kBellyFile = std::string(SUPPLE_TEST_DATA) + "/jiggle/belly.glb";
 /// The same with a cape (tests/support/cape.py).
 inline const std::string kCapedFile = std::string(SUPPLE_TEST_DATA) + "/cloth/caped.glb";
 
