@@ -4,8 +4,8 @@
 #include "cage/materials.h"
 #include "cage/message.h"
 #include "cage/skeleton.h"
-#include "cage/soft.h"
 #include "cage/smoothing.h"
+#include "cage/soft.h"
 #include "cage/solved_driver.h"
 #include "cage/trim.h"
 

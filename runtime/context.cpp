@@ -291,6 +291,22 @@ Result<uint64_t> Context::keep(Result<std::shared_ptr<Asset>> asset, uint64_t cl
     return asset ? Result<uint64_t>(assets.insert(std::move(*asset))) : asset.error();
 }
 
+Status Context::follow(const Asset& asset, GroupShared& shared, SuppleGroupDesc& desc) {
+    const std::shared_ptr<Group> leader = groups.find(desc.instancesOf.id);
+    if (leader == nullptr) {
+        return Error{ErrorCode::staleHandle, "suppleCreateGroup: instancesOf: stale or foreign group handle"};
+    }
+    if (leader->follows() || leader->sharedAsset().get() != &asset) {
+        return Error{ErrorCode::argument, "suppleCreateGroup: instancesOf: the group follows another one itself, or "
+                                          "it has another asset"};
+    }
+    shared.instances = leader->sharedInstances();
+    shared.leader = leader.get();
+    desc.capacity = shared.instances->capacity();
+    desc.poseSource = shared.instances->source();
+    return fitMemory(*leader); // it is followed now
+}
+
 Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     const std::shared_ptr<Asset> asset = assets.find(desc.asset.id);
     if (asset == nullptr) {
@@ -318,22 +334,9 @@ Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {
     GroupShared shared = sharedFor(std::move(view));
     SuppleGroupDesc whole = desc;
     if (desc.instancesOf.id != 0) {
-        const std::shared_ptr<Group> leader = groups.find(desc.instancesOf.id);
-        if (leader == nullptr) {
-            return Error{ErrorCode::staleHandle, "suppleCreateGroup: instancesOf: stale or foreign group handle"};
+        if (const Status followed = follow(*asset, shared, whole); !followed) {
+            return followed.error();
         }
-        if (leader->follows() || leader->sharedAsset() != asset) {
-            return Error{ErrorCode::argument,
-                         "suppleCreateGroup: instancesOf: the group follows another one itself, or "
-                         "it has another asset"};
-        }
-        shared.instances = leader->sharedInstances();
-        shared.leader = leader.get();
-        if (const Status fits = fitMemory(*leader); !fits) { // it is followed now
-            return fits.error();
-        }
-        whole.capacity = shared.instances->capacity();
-        whole.poseSource = shared.instances->source();
     }
     Result<std::shared_ptr<Group>> group = Group::create(shared, asset, whole);
     if (!group) {

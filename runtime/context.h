@@ -187,6 +187,8 @@ private:
     [[nodiscard]] gpu::StaticCount newCount() const; ///< under uploading_
     /// Why a group that follows another cannot be recorded with those that the call has linked; null if it can.
     [[nodiscard]] const char* faultOfLeader(const Group& group, uint64_t call) const;
+    /// Takes the group that `desc` follows into `shared`, and what it decides into `desc`.
+    [[nodiscard]] Status follow(const Asset& asset, GroupShared& shared, SuppleGroupDesc& desc);
     [[nodiscard]] GroupShared sharedFor(std::shared_ptr<View> view);
     void tellNotes(const Group& group) const;
     void tellBuiltLate(Asset& asset) const;

@@ -164,10 +164,10 @@ void fields(A& a, T& character) {
       character.skeleton.parentsFirst, character.skin.joints, character.skin.inverseBinds, character.weights.starts,
       character.weights.influences, character.morphs.targets, character.morphs.weights, character.expressions,
       character.drivers, character.weights.jiggles, character.weights.mushMask, character.jiggles,
-      character.weights.cloths, character.cloths,
-      character.springBones.springs, character.springBones.colliderGroups, character.springBones.colliders,
-      character.clips, character.clipRoot, character.materials, character.materialVariants, character.images,
-      character.warnings, character.damages, character.sourceVertexCount, character.seamVertexCount);
+      character.weights.cloths, character.cloths, character.springBones.springs, character.springBones.colliderGroups,
+      character.springBones.colliders, character.clips, character.clipRoot, character.materials,
+      character.materialVariants, character.images, character.warnings, character.damages, character.sourceVertexCount,
+      character.seamVertexCount);
 }
 
 } // namespace supple::cage

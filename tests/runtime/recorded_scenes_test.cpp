@@ -7,10 +7,10 @@
 //   tests/data/recordings/plays.supprec
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
-#include "tests/support/soft_assets.h"
 #include "tests/support/played_group.h"
 #include "tests/support/recordings.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/soft_assets.h"
 #include "tests/support/springs.h"
 
 #include <cstdlib>
