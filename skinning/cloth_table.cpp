@@ -26,7 +26,7 @@ using cage::kNone;
 using Pair = ClothPairs::Pair;
 
 constexpr double kMass = 0.01; // of a vertex of weight 1, in kg
-constexpr double kLeastWeight = 1e-3;
+constexpr double kLeastClothWeight = 1e-3;
 constexpr double kVolumeGives = 0.05;    // beside what vertices give in the rest pose
 constexpr uint32_t kSettlingSteps = 240; // four seconds
 constexpr uint32_t kLanes = 32;          // that a workgroup has at least
@@ -49,8 +49,9 @@ public:
         for (const uint32_t v : mesh.vertices) {
             const cage::PaintedWeight& painted = character.weights.cloths[v];
             positions_.emplace_back(character.cage.positions[v]);
-            mobility_.push_back(
-                painted.index == cloth ? std::max(static_cast<double>(painted.weight), kLeastWeight) / kMass : 0.0);
+            mobility_.push_back(painted.index == cloth
+                                    ? std::max(static_cast<double>(painted.weight), kLeastClothWeight) / kMass
+                                    : 0.0);
         }
         findConstraints();
         findTethers();
