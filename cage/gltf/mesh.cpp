@@ -107,7 +107,7 @@ public:
             [&] { out_.skinning = readSkinningMode(document_.meshes[meshIndex], out_.element); });
         out_.jiggles = usedJiggles(document_, jiggles_, out_.jiggleWeights);
         document_.leniency->leaveOut([&] {
-            if (!mask_.empty() && out_.mushMask.empty()) {
+            if (!mask_.empty() && !isMaskThere_) {
                 refuse(out_.element + " SUPPLE_deformers smoothing mask", "no primitive has " + cage::quoted(mask_));
             }
         });
@@ -259,6 +259,7 @@ private:
                             targets,
                             jiggleAccessors(from, jiggles_),
                             paintedAccessor(from, mask_)};
+        isMaskThere_ = isMaskThere_ || std::get<6>(stream) >= 0;
         const auto known = streams_.find(stream);
         primitive.firstVertex = known != streams_.end() ? known->second : static_cast<uint32_t>(out_.positions.size());
         const size_t count = accessorCount(document_, position->second);
@@ -466,6 +467,7 @@ private:
     MorphReader morphReader_;
     std::vector<PaintedJiggle> jiggles_;
     std::string mask_;                   ///< the attribute with the mask of delta mush; empty: there is none
+    bool isMaskThere_ = false;           ///< a primitive has it
     std::vector<int> cageNumbers_;       ///< per primitive: the accessor that numbers its cage vertices, or -1
     bool isNumberingLeftOut_ = false;    ///< vertices that have no number are among those that should
     bool isCounted_ = true;              ///< no primitive that is drawn, or may be, was left out with its vertices
