@@ -94,10 +94,11 @@ PosePush posePushOf(const Asset& asset, const skinning::PoseLayout& layout, cons
     push.endStride = endStride(layout, room);
     push.morphWeights = layout.morphWeights;
     push.shown = UINT32_MAX;
-    // Delta mush has joints for a vertex that the vertex itself does not follow.
-    const bool all = room.modifiers || skinning::isMush(layout.mode);
-    push.stepNodes = all ? 0 : (room.springs ? kNodeOfSprings : 0) | (room.soft ? kNodeOfSoft : 0);
+    const bool poseAll = room.soft && skinning::isMush(layout.mode);
+    push.stepNodes =
+        room.modifiers || poseAll ? 0 : (room.springs ? kNodeOfSprings : 0) | (room.soft ? kNodeOfSoft : 0);
     push.stepNodes |= room.soft ? kStepsHavePoses : 0;
+    push.stepNodes |= poseAll ? kStepsPoseAll : 0;
     push.stateBefore = playedStride(table, layout, room);
     push.springs = room.springs ? table.springs : 0;
     push.springScratch = springScratch(table, room);

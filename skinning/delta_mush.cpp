@@ -19,7 +19,7 @@ constexpr uint64_t kMostWork = uint64_t{1} << 31;
 /// the heaviest joint decides.
 constexpr double kEvened = 1e-5;
 /// Smoothed weights below this are rounding.
-constexpr double kLeastWeight = 1e-11;
+constexpr double kLeastSmoothedWeight = 1e-11;
 
 /// About a point.
 struct Moments {
@@ -167,7 +167,7 @@ private:
             values.push_back(valuesOf(momentsAt(positionOf(nodes[i]) - middle, weightsOf_[joint][i])));
         }
         for (const uint32_t n : smoother_.smooth(nodes, values)) {
-            if (smoother_.smoothed(n)[0] < kLeastWeight) {
+            if (smoother_.smoothed(n)[0] < kLeastSmoothedWeight) {
                 continue;
             }
             const Moments moments = shifted(smoother_.smoothed(n), places_[n] - middle);

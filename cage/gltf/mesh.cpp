@@ -111,7 +111,7 @@ public:
         out_.jiggleWeights = std::move(soft.jiggleWeights);
         out_.clothWeights = std::move(soft.clothWeights);
         document_.leniency->leaveOut([&] {
-            if (!mask_.empty() && out_.mushMask.empty()) {
+            if (!mask_.empty() && !isMaskThere_) {
                 refuse(out_.element + " SUPPLE_deformers smoothing mask", "no primitive has " + cage::quoted(mask_));
             }
         });
@@ -264,6 +264,7 @@ private:
                             targets,
                             soft_.accessorsOf(from),
                             paintedAccessor(from, mask_)};
+        isMaskThere_ = isMaskThere_ || std::get<6>(stream) >= 0;
         const auto known = streams_.find(stream);
         primitive.firstVertex = known != streams_.end() ? known->second : static_cast<uint32_t>(out_.positions.size());
         const size_t count = accessorCount(document_, position->second);
@@ -471,6 +472,7 @@ private:
     MorphReader morphReader_;
     SoftReader soft_;
     std::string mask_;                   ///< the attribute with the mask of delta mush; empty: there is none
+    bool isMaskThere_ = false;           ///< a primitive has it
     std::vector<int> cageNumbers_;       ///< per primitive: the accessor that numbers its cage vertices, or -1
     bool isNumberingLeftOut_ = false;    ///< vertices that have no number are among those that should
     bool isCounted_ = true;              ///< no primitive that is drawn, or may be, was left out with its vertices

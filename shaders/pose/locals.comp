@@ -27,7 +27,7 @@ const bool kRoots = false;
 // What steps do not need: in groups without modifiers, most nodes and, where nothing jiggles, morph weights.
 bool isLeftOut(uint item) {
     bool needed = item == push.nodeCount || stepsHavePoses();
-    uint flags = push.stepNodes & ~kStepsHavePoses;
+    uint flags = push.stepNodes & ~(kStepsHavePoses | kStepsPoseAll);
     if (item < push.nodeCount) needed = flags == 0u || (table(kNodeElements * item).y & flags) != 0u;
     return !needed;
 }

@@ -70,7 +70,9 @@ Affine globalOf(uint matrices, uint node) {
 }
 
 // A step needs only what painted vertices hang on.
-bool isNeeded(uint node) { return !isStep() || (table(kNodeElements * node).y & kNodeOfSoft) != 0u; }
+bool isNeeded(uint node) {
+    return !isStep() || (push.stepNodes & kStepsPoseAll) != 0u || (table(kNodeElements * node).y & kNodeOfSoft) != 0u;
+}
 
 void storeJoint(uint joint, bool bindPose, uint matrices, Affine place) {
     precise Affine own = identity();

@@ -232,6 +232,8 @@ SUPPLE_SHARED_CONST kSpringJointElements = 4u;
 
 // Beside flags of nodes in PosePush::stepNodes: what is soft needs palettes and morph weights of steps.
 SUPPLE_SHARED_CONST kStepsHavePoses = 0x80000000u;
+// And those are of all nodes, for delta mush: it has joints for a vertex that the vertex itself does not follow.
+SUPPLE_SHARED_CONST kStepsPoseAll = 0x40000000u;
 
 // Drivers.
 SUPPLE_SHARED_CONST kShareElements = 4u;
@@ -286,7 +288,7 @@ struct PosePush {
     uint endStride;    // from one end of an instance, or the pose of one step, to the next
     uint times;        // word of the list where the times of its entries begin; 0: all are posed at the group's time
     uint shown;        // entries before this one are shown, others are steps
-    uint stepNodes;    // flags of nodes that steps need, all if there are none; kStepsHavePoses
+    uint stepNodes;    // flags of nodes that steps need, all if there are none; kStepsHavePoses, kStepsPoseAll
     uint stateBefore;  // from an instance's state to what it played before the last call
     uint springs;      // section of the clip table
     uint springScratch;
