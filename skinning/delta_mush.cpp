@@ -14,7 +14,7 @@ namespace supple::skinning {
 namespace {
 
 /// Products, for each of ten columns: some seconds.
-constexpr uint64_t kMostWork = uint64_t{1} << 31;
+constexpr uint64_t kMostSmoothingWork = uint64_t{1} << 31;
 /// By so much of its size a neighborhood is made even, so that one that is thin does not turn about its length freely:
 /// the heaviest joint decides.
 constexpr double kEvened = 1e-5;
@@ -128,14 +128,14 @@ private:
         uint64_t work = 0;
         for (const std::vector<uint32_t>& nodes : nodesOf_) {
             work += smoother_.work(nodes);
-            if (work > kMostWork) {
+            if (work > kMostSmoothingWork) {
                 const cage::Smoothing smoothing = cage::smoothingOf(character_);
                 return Error{ErrorCode::limit, character_.name + ": delta mush: smoothing the weights of " +
                                                    std::to_string(nodesOf_.size()) + " joints on " +
                                                    std::to_string(smoother_.nodeCount()) + " vertices, with " +
                                                    std::to_string(smoothing.iterations) + " iterations of lambda " +
                                                    std::to_string(smoothing.lambda) + ", takes more than " +
-                                                   std::to_string(kMostWork) + " products"};
+                                                   std::to_string(kMostSmoothingWork) + " products"};
             }
         }
         return success();
