@@ -1,6 +1,7 @@
 // What groups will need of a character, built before there are any: no device, no context.
 #pragma once
 
+#include "gpu/mapping.h"
 #include "runtime/part_schemes.h"
 #include "runtime/prepared.h"
 #include "supple/supple.h"
