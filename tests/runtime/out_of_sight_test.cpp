@@ -50,7 +50,8 @@ TEST(PlayedBounds, HoldWhatPlays) {
     skinning::PoseMemory memory(tube);
     const skinning::Centers centers = skinning::findCenters(tube);
     runtime::PlayedBounds bounds(tube, {}, false, 1);
-    runtime::PlayedBounds about(tube, {skinning::SkinningMode::centersOfRotation, &centers}, false, 1);
+    const skinning::SkinnedBounds skinned({skinning::SkinningMode::centersOfRotation, &centers});
+    runtime::PlayedBounds about(tube, skinned, false, 1);
     Noise noise(7);
     size_t held = 0, unbounded = 0;
     for (uint32_t run = 0; run < 400; ++run) {

@@ -29,8 +29,8 @@ const Checked kShaders[] = {
     {"evaluate/edge.comp", "position"},
     {"prep/vertex.comp", "canonical"},
     {"prep/edge.comp", "canonical"},
-    {"evaluate/bicubic.comp", "position", false, false, " -DFAN_RECORDS"},
-    {"prep/edge.comp", "canonical", false, false, " -DFAN_RECORDS"},
+    {"evaluate/bicubic.comp", "position", false, false, "-DFAN_RECORDS "},
+    {"prep/edge.comp", "canonical", false, false, "-DFAN_RECORDS "},
     {"pm/vertex.comp", "canonical"},
     {"pm/facet.comp", "canonical"},
     {"pm/evaluate.comp", "position"},
@@ -50,6 +50,7 @@ const Checked kShaders[] = {
     {"fragments/limit.comp", "position"},
     {"fragments/fragment.comp", "position"},
     {"pose/locals.comp", "local"},
+    {"pose/locals.comp", "local", false, false, "-DADDS -DTRANSITIONS "},
     {"pose/roots.comp", "local"},
     {"pose/roots.comp", "held"},
     {"pose/modify.comp", "local"},
@@ -76,7 +77,7 @@ TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
                         checked);
             EXPECT_GE(checked, 5u) << c.shader << ": the walk found too little to be believed";
             for (const std::string& offence : offences) {
-                ADD_FAILURE() << c.shader << " " << macros << c.macro << ": " << offence;
+                ADD_FAILURE() << c.shader << " " << c.form << macros << ": " << offence;
             }
         }
     }

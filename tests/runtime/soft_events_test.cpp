@@ -260,7 +260,7 @@ struct WatchedGroup {
         group = std::make_unique<SoftGroup>(context, desc);
         view.camera.pixelsPerUnit = 400.0f;
     }
-    void jiggle(double time, bool looksAway) {
+    void frame(double time, bool looksAway) {
         const glm::vec3 eye(0.0f, 1.0f, 5.0f), to(0.0f, 1.0f, looksAway ? 10.0f : 0.0f);
         const glm::mat4 seen =
             glm::perspectiveRH_ZO(0.9f, 1.0f, 0.1f, 200.0f) * glm::lookAt(eye, to, glm::vec3(0, 1, 0));

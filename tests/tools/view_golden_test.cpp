@@ -92,7 +92,7 @@ private:
         scene_.camera =
             host::frameCamera(extent->points, radians(options_.yaw), radians(options_.pitch), 1.0f, kMargin);
         scene_.lightYaw = scene_.camera.yaw;
-        scene_.pixelScale = pixelScale(kSize);
+        fitToPixels(scene_, kSize);
         return success();
     }
 
