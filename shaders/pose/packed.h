@@ -53,7 +53,8 @@ PackedTime packedTime(uvec4 head, float rateLow, vec2 time) {
     float last = float(head.y);
     if (whole < 0.0f) part = 0.0f;
     if (whole >= last) part = 1.0f;
-    uint frame = uint(min(max(whole, 0.0f), last - 1.0f));
+    SUPPLE_PRECISE float latest = last - 1.0f;
+    uint frame = uint(min(max(whole, 0.0f), latest));
     PackedTime result;
     result.segment = frame / kSegmentFrames;
     result.frame = frame % kSegmentFrames;

@@ -215,9 +215,11 @@ private:
         case 87:  // ImageSampleImplicitLod .. ImageFetch, Image
         case 95:  //
         case 100: //
-        case 110: // ConvertFToS, of whole numbers
+        case 109: // ConvertFToU, ConvertFToS, of whole numbers
+        case 110: //
         case 124: // Bitcast
-        case 127: // FNegate
+        case 126: // SNegate, FNegate
+        case 127: //
         case 128: // IAdd, ISub, IMul: integers are exact
         case 130: //
         case 132: //
