@@ -782,7 +782,7 @@ void contexts(Rows& r) {
     range("framesInFlight 5", [](Desc& d) { d.framesInFlight = SUPPLE_MAX_FRAMES_IN_FLIGHT + 1; });
     range("mapping 3", [](Desc& d) { d.mapping = static_cast<SuppleMapping>(3); });
     range("mapping -1", [](Desc& d) { d.mapping = static_cast<SuppleMapping>(-1); });
-    range("flags", [](Desc& d) { d.flags |= 32; });
+    range("flags", [](Desc& d) { d.flags |= 64; });
     range("queueFamily", [](Desc& d) { d.queueFamily = 1000; });
     range("drawQueueFamily", [](Desc& d) {
         d.flags |= SUPPLE_CONTEXT_ASYNC_COMPUTE;

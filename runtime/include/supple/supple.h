@@ -252,10 +252,10 @@ typedef enum SuppleContextFlags {
      * coefficients of these, instead of reading some 144. Positions have the same bits. It is there to be measured: no
      * GPU has run it (docs/benchmarks.md). Without effect on other schemes, in views with levels, and with
      * SUPPLE_GROUP_INDEXED_MESH. Tables for it are made when the group is created: no prepared character has them. */
-    SUPPLE_CONTEXT_FAN_RECORDS = 16,
+    SUPPLE_CONTEXT_FAN_RECORDS = 32,
     /** Groups may have SUPPLE_GROUP_RAY_TRACING. What suppleQueryRequirements says with this flag must be enabled, and
      * SuppleMemoryCallbacks.allocate must allocate with VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT. */
-    SUPPLE_CONTEXT_RAY_TRACING = 32
+    SUPPLE_CONTEXT_RAY_TRACING = 16
 } SuppleContextFlags;
 
 /** A piece of the host's device memory. */
