@@ -488,7 +488,7 @@ TEST_F(PoseApi, WrongPosesAreRefusedByNameAndChangeNothing) {
     auto groupDesc = sized<SuppleGroupDesc>();
     groupDesc.asset = asset;
     groupDesc.capacity = 1;
-    groupDesc.skinning = static_cast<SuppleSkinning>(4);
+    groupDesc.skinning = static_cast<SuppleSkinning>(SUPPLE_SKINNING_FROM_FILE + 1);
     SuppleGroup none{};
     EXPECT_NE(refusal(suppleCreateGroup(handle(), &groupDesc, &none)).find("skinning or poseSource"),
               std::string::npos);

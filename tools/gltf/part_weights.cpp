@@ -22,13 +22,17 @@ float linearAt(const Channel& channel, float time, size_t number) {
 
 } // namespace
 
+bool setsWeightsOf(const Channel& channel, const Part& part) {
+    return channel.firstTarget < part.firstTarget + part.targetCount &&
+           part.firstTarget < channel.firstTarget + channel.width();
+}
+
 std::optional<Channel> partWeights(const Clip& clip, const Part& part, std::span<const float> rest) {
     std::vector<const Channel*> own;
     std::set<float> times;
     const uint32_t end = part.firstTarget + part.targetCount;
     for (const Channel& channel : clip.channels) {
-        if (channel.path != ChannelPath::weights || channel.firstTarget >= end ||
-            channel.firstTarget + channel.width() <= part.firstTarget) {
+        if (channel.path != ChannelPath::weights || !setsWeightsOf(channel, part)) {
             continue;
         }
         if (channel.firstTarget == part.firstTarget && channel.width() == part.targetCount) {

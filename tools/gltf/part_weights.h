@@ -8,6 +8,9 @@
 
 namespace supple::cage::gltf {
 
+/// Whether a channel of weights is one of some targets of the part.
+[[nodiscard]] bool setsWeightsOf(const Channel& channel, const Part& part);
+
 /// What a clip says of a part's targets; nothing if it says nothing. Packed clips have channels of a few targets, which
 /// may be those of several parts: these become one with the keys of all. `rest`: the weights that no channel sets.
 [[nodiscard]] std::optional<Channel> partWeights(const Clip& clip, const Part& part, std::span<const float> rest);

@@ -200,16 +200,18 @@ public:
     }
 
 private:
-    /// As glTF has them: one for the weights of each part that has targets of its own.
+    /// As glTF has them: one for the weights of each part that has targets of its own. In their order.
     [[nodiscard]] std::vector<Channel> channelsOf(const Clip& clip) const {
         std::vector<Channel> channels;
-        std::copy_if(clip.channels.begin(), clip.channels.end(), std::back_inserter(channels),
-                     [](const Channel& channel) { return channel.path != ChannelPath::weights; });
         std::set<uint32_t> written;
-        for (const Part& part : parts_) {
-            if (part.targetCount > 0 && written.insert(part.firstTarget).second) {
-                if (std::optional<Channel> weights = partWeights(clip, part, restWeights_)) {
-                    channels.push_back(std::move(*weights));
+        for (const Channel& channel : clip.channels) {
+            if (channel.path != ChannelPath::weights) {
+                channels.push_back(channel);
+                continue;
+            }
+            for (const Part& part : parts_) {
+                if (setsWeightsOf(channel, part) && written.insert(part.firstTarget).second) {
+                    channels.push_back(*partWeights(clip, part, restWeights_));
                 }
             }
         }
