@@ -41,10 +41,10 @@ Displacements displacementsOf(uint32_t vertexCount, const cage::Morphs& morphs) 
     return result;
 }
 
-using Words = std::vector<uint32_t>;
+using TableWords = std::vector<uint32_t>;
 
 /// Of a vertex, the heaviest first.
-void putInfluences(const cage::SkinWeights& weights, uint32_t vertex, Words& words) {
+void putInfluences(const cage::SkinWeights& weights, uint32_t vertex, TableWords& words) {
     std::vector<cage::Influence> own(weights.influences.begin() + weights.starts[vertex],
                                      weights.influences.begin() + weights.starts[vertex + 1]);
     const auto heaviest =
@@ -56,7 +56,7 @@ void putInfluences(const cage::SkinWeights& weights, uint32_t vertex, Words& wor
     }
 }
 
-void putMush(std::span<const MushInfluence> own, Words& words) {
+void putMush(std::span<const MushInfluence> own, TableWords& words) {
     for (const MushInfluence& i : own) {
         words.insert(words.end(), {i.joint, bits(i.weight), bits(i.offset.x), bits(i.offset.y), bits(i.offset.z)});
         for (const float spread : i.spread) {
@@ -66,7 +66,7 @@ void putMush(std::span<const MushInfluence> own, Words& words) {
     }
 }
 
-void putLightMush(std::span<const MushInfluence> own, Words& words) {
+void putLightMush(std::span<const MushInfluence> own, TableWords& words) {
     for (size_t i = 0; i < own.size(); i += 2) {
         const MushInfluence second = i + 1 < own.size() ? own[i + 1] : MushInfluence{own[i].joint, 0.0f, {}, {}};
         words.insert(words.end(), {own[i].joint, bits(own[i].weight), second.joint, bits(second.weight)});
@@ -76,7 +76,7 @@ void putLightMush(std::span<const MushInfluence> own, Words& words) {
     }
 }
 
-void putInfluences(const cage::Character& character, const Skinning& skinning, uint32_t vertex, Words& words) {
+void putInfluences(const cage::Character& character, const Skinning& skinning, uint32_t vertex, TableWords& words) {
     const SkinTableKind table = skinningRow(skinning.mode).table;
     if (table == SkinTableKind::plain || table == SkinTableKind::centers) {
         putInfluences(character.weights, vertex, words);
@@ -107,7 +107,7 @@ DeformTable buildDeformTable(const cage::Character& character, const Skinning& s
     const cage::Cage& cage = character.cage;
     const uint32_t vertexCount = cage.vertexCount();
     const Displacements displacements = displacementsOf(vertexCount, character.morphs);
-    Words vertices, runs, firstInfluences;
+    TableWords vertices, runs, firstInfluences;
     vertices.reserve(4 * (size_t{vertexCount} + 1));
     runs.reserve(4 * displacements.list.size() + 2 * character.weights.influences.size());
     const auto nextElement = [&] { return static_cast<uint32_t>(vertexCount + 1 + runs.size() / 4); };

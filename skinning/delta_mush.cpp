@@ -60,7 +60,7 @@ MushInfluence influenceOf(uint32_t joint, const Moments& m) {
     return influence;
 }
 
-bool isFinite(const MushInfluence& influence) {
+bool isFiniteInfluence(const MushInfluence& influence) {
     const glm::vec3& o = influence.offset;
     return std::isfinite(influence.weight + o.x + o.y + o.z) &&
            std::all_of(influence.spread.begin(), influence.spread.end(),
@@ -222,7 +222,7 @@ private:
     [[nodiscard]] bool isSmoothed(uint32_t n) const {
         const glm::vec3 place(places_[n]);
         return smoother_.moves(n) && std::isfinite(place.x + place.y + place.z) &&
-               std::all_of(lists_[n].begin(), lists_[n].end(), isFinite);
+               std::all_of(lists_[n].begin(), lists_[n].end(), isFiniteInfluence);
     }
 
     [[nodiscard]] DeltaMush listed() const {
