@@ -20,7 +20,7 @@ constexpr uint32_t kPointsPerJob = 1024;
 constexpr uint32_t kPointsAtATime = 32;
 constexpr uint32_t kPatchesPerJob = 64;
 /// Weights of floats add up to 1 and a little.
-constexpr double kSlack = 1e-6;
+constexpr double kWeightSlack = 1e-6;
 
 const char* faultOf(const SuppleSurfacePoint& point, uint32_t sides) {
     if (!std::isfinite(point.a) || !std::isfinite(point.b)) {
@@ -30,8 +30,8 @@ const char* faultOf(const SuppleSurfacePoint& point, uint32_t sides) {
         return "the face has no such side";
     }
     const double a = point.a, b = point.b;
-    const bool below = a < -kSlack || b < -kSlack;
-    const bool beyond = sides == 4 ? a > 1.0 + kSlack || b > 1.0 + kSlack : a + b > 1.0 + kSlack;
+    const bool below = a < -kWeightSlack || b < -kWeightSlack;
+    const bool beyond = sides == 4 ? a > 1.0 + kWeightSlack || b > 1.0 + kWeightSlack : a + b > 1.0 + kWeightSlack;
     return below || beyond ? "a and b do not lie in the face" : nullptr;
 }
 

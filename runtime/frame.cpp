@@ -17,10 +17,10 @@ constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS
 constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 constexpr VkPipelineStageFlags2 kIndirect = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
 constexpr VkAccessFlags2 kIndirectRead = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
-constexpr gpu::SyncScope kFirst{kCompute | kTransfer, kRead | kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr gpu::SyncScope kFirstPasses{kCompute | kTransfer, kRead | kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
 /// What passes do with uploads: headers of tables are uniforms.
-constexpr gpu::SyncScope kUploaded{kFirst.stages, kFirst.access | VK_ACCESS_2_UNIFORM_READ_BIT};
-constexpr gpu::SyncScope kLast{kCompute | kTransfer, kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr gpu::SyncScope kUploaded{kFirstPasses.stages, kFirstPasses.access | VK_ACCESS_2_UNIFORM_READ_BIT};
+constexpr gpu::SyncScope kLastPasses{kCompute | kTransfer, kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
 
 // Stages have the same values in Vulkan 1.0, where ALL_TRANSFER is called TRANSFER.
 static_assert(kCompute == VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT && kTransfer == VK_PIPELINE_STAGE_TRANSFER_BIT);
@@ -29,7 +29,7 @@ constexpr VkAccessFlags2 legacyAccess(VkAccessFlags2 access) {
     return (access & ~(kRead | kWrite)) | ((access & kRead) != 0 ? VK_ACCESS_2_SHADER_READ_BIT : 0) |
            ((access & kWrite) != 0 ? VK_ACCESS_2_SHADER_WRITE_BIT : 0);
 }
-static_assert(legacyAccess(kFirst.access) ==
+static_assert(legacyAccess(kFirstPasses.access) ==
               (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT));
 
 /// Linked groups in two lists.
@@ -531,11 +531,11 @@ void recordBehindUploads(const Frame& frame, Timings::Recording& timing) {
 } // namespace
 
 SuppleSyncScope Context::firstScope() {
-    return {kFirst.stages, legacyAccess(kFirst.access)};
+    return {kFirstPasses.stages, legacyAccess(kFirstPasses.access)};
 }
 
 SuppleSyncScope Context::lastScope() {
-    return {kLast.stages, legacyAccess(kLast.access)};
+    return {kLastPasses.stages, legacyAccess(kLastPasses.access)};
 }
 
 const char* Context::faultOfLeader(const Group& group, uint64_t call) const {
@@ -650,7 +650,7 @@ Status Context::recordWarmUp(VkCommandBuffer commandBuffer, std::span<const Supp
             group.recordWarmUp(commandBuffer);
         }
     }
-    gpu::memoryBarrier(*device_, commandBuffer, kFirst, kAll);
+    gpu::memoryBarrier(*device_, commandBuffer, kFirstPasses, kAll);
     return success();
 }
 
@@ -683,7 +683,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     if ((desc.flags & SUPPLE_RECORD_NO_ENTRY_BARRIER) == 0) {
         // Earlier frames' passes and the host's uses end before this frame overwrites anything.
         gpu::memoryBarrier(device, commandBuffer,
-                           {desc.before.stages | kLast.stages, desc.before.access | kLast.access}, kFirst);
+                           {desc.before.stages | kLastPasses.stages, desc.before.access | kLastPasses.access},
+                           kFirstPasses);
     }
     gpu::OwnDispatches dispatches(device, commandBuffer, taskRooms_, frame_, needs);
     Frame frame{device,    commandBuffer, *dispatches, dispatches.tasks(), frame_, framesInFlight_,
@@ -712,7 +713,7 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         frame.forEach([&](Group& group) { group.addTransfers(releases, group.link.leadsView); });
     }
     if (desc.after.stages != 0) {
-        gpu::memoryBarrier(device, commandBuffer, kLast, {desc.after.stages, desc.after.access});
+        gpu::memoryBarrier(device, commandBuffer, kLastPasses, {desc.after.stages, desc.after.access});
     }
     device.endLabel(commandBuffer);
     return success();
