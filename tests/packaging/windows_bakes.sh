@@ -18,7 +18,7 @@ mkdir -p "$work"
 cd "$work"
 # Neither browser nor .NET is asked for. What other tests set is for Linux.
 export WINEPREFIX=$work/wine WINEDEBUG=-all WINEDLLOVERRIDES="mscoree,mshtml=" LC_ALL=C.UTF-8
-unset GLIBC_TUNABLES VK_INSTANCE_LAYERS
+unset GLIBC_TUNABLES VK_INSTANCE_LAYERS VK_ADD_LAYER_PATH SUPPLE_POISON SUPPLE_VALIDATION
 trap '"$wine" wineboot -k >/dev/null 2>&1; rm -rf "$WINEPREFIX"' EXIT
 "$wine" wineboot -i >/dev/null 2>&1 || fail "wine cannot make its folder"
 echo "${SECONDS}s  wine is ready"
