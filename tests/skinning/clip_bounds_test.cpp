@@ -160,7 +160,7 @@ TEST(ClipBounds, HoldEveryCharactersClips) {
 /// large tangents, steps, scales, morph targets.
 TEST(ClipBounds, HoldRandomClips) {
     double worst = 0.0, sum = 0.0;
-    constexpr uint32_t kRuns = 120;
+    constexpr uint32_t kRuns = 48;
     for (uint32_t run = 0; run < kRuns; ++run) {
         SCOPED_TRACE(run);
         test::Noise noise(run);
