@@ -34,15 +34,15 @@ public:
         requests_.push_back(request);
         return {*target_, requests_.size() - 1};
     }
-    /// Of all that is added until now, each buffer at a multiple of `alignment`.
+    /// What all that is added until now takes, each buffer at a multiple of `alignment`.
     [[nodiscard]] VkDeviceSize bytes(VkDeviceSize alignment) const {
         VkDeviceSize sum = 0;
         for (const BufferRequest& request : requests_) {
-            sum += (request.size + alignment - 1) / alignment * alignment;
+            sum += roundUp(request.size, alignment);
         }
         return sum;
     }
-    /// Once more, if the target has lost its buffers.
+    /// Makes what is added until now. May be called once more where the target has lost its buffers.
     [[nodiscard]] Status create(const Device& device, MemoryKind kind) const {
         Result<BufferSet> made = BufferSet::create(device, requests_, kind);
         if (!made) {

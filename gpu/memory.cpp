@@ -8,10 +8,6 @@ namespace supple::gpu {
 
 namespace {
 
-VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize alignment) {
-    return (value + alignment - 1) / alignment * alignment;
-}
-
 Result<BufferHandle> createBuffer(const Device& device, const BufferRequest& request, const std::string& what) {
     if (request.size > device.maxBufferSize) {
         return Error{ErrorCode::limit,

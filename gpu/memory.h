@@ -17,6 +17,11 @@ namespace supple::gpu {
 inline constexpr VkDeviceSize kVec4Bytes = 16;
 inline constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kUint4 = VK_FORMAT_R32G32B32A32_UINT;
 
+/// The first multiple of `alignment` from `value` on.
+constexpr VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
+
 struct BufferRequest {
     const char* name = ""; ///< for debuggers and messages
     VkDeviceSize size = 0; ///< 0 leaves the buffer out: its handle is null

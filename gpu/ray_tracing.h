@@ -9,7 +9,7 @@
 
 namespace supple::gpu {
 
-/// What a buffer that structures are built from has besides.
+/// The usage that a buffer has besides its own if structures are built from it.
 inline constexpr VkBufferUsageFlags kBuildInputUsage =
     VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
 

@@ -77,7 +77,7 @@ struct PatchClassRow {
     uint32_t netElements = 0;                ///< what a patch takes of a workgroup's memory in the wide mapping, where
                                              ///< a lane takes a row of its samples. 0: a lane takes a sample, or see
                                              ///< hasQuarters()
-    /// Of tables with fan records (Tables::fanRecords), in the place of `evaluate` and `patch`.
+    /// For tables with fan records (Tables::fanRecords), in the place of `evaluate` and `patch`.
     Kernel evaluateRecords = Kernel::count, patchOfRecords = Kernel::count;
     [[nodiscard]] constexpr bool hasRows() const { return netElements > 0; }
     [[nodiscard]] constexpr bool isBicubic() const { return hasRows() && borders == Borders::cubics; }

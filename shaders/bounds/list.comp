@@ -71,7 +71,7 @@ void clearWanted(uint slot) {
     [[dont_unroll]] for (uint k = 1u; k <= min(push.sharers, kMaxSharers); ++k) states.at[push.sharerStride * k + slot].x = 0u;
 }
 
-// Lists what a window constructs, and counts it. `counts`: of what it draws.
+// Lists what a window constructs, and counts it. `counts`: what it draws.
 uint listConstructed(uvec4 window, uvec2 run, uint leftOut, uvec4 counts) {
     if (push.sharers == 0u) return counts.x + counts.y;
     uint lane = gl_LocalInvocationID.x, own = 0u;

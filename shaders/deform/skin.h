@@ -132,7 +132,7 @@ Turn apart(Turn own, Turn base, float weight) {
     return result;
 }
 
-// By how much a joint moves a direction beside another one, whose rows are given.
+// What a joint makes of a direction, less what another joint makes of it, whose rows are given.
 vec3 slid(uint joint, vec3 a, vec3 b, vec3 c, vec3 direction) {
     SUPPLE_PRECISE vec3 x = vec3(pose(joint)) - a;
     SUPPLE_PRECISE vec3 y = vec3(pose(joint + 1u)) - b;

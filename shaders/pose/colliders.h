@@ -11,7 +11,7 @@ SUPPLE_SHARED_BEGIN
 struct PosedCollider {
     vec4 point, way; // as the scratch memory has them (shaders/shared/pose.h)
 };
-// One with such flags, of a table's two elements, in a frame.
+// A collider with such flags, whose two elements a table has, in a frame.
 SUPPLE_SHARED_FUNCTION PosedCollider colliderThrough(Affine m, uint flags, vec4 point, vec4 end) {
     SUPPLE_PRECISE vec3 a = through(m, vec3(point));
     SUPPLE_PRECISE vec3 way = through(m, vec3(end)) - a;

@@ -1,5 +1,5 @@
-// What a packed clip keeps of the knots between two others is how far they are off the line between these. GLSL and C++
-// share the very code.
+// The line between two knots of a packed clip. A knot in between is kept as how far it is off that line. GLSL and C++ share
+// the very code.
 #ifndef SUPPLE_POSE_KNOTS_H
 #define SUPPLE_POSE_KNOTS_H
 

@@ -30,7 +30,7 @@ struct Edge {
     uint edgeClass;
 };
 #ifdef FAN_RECORDS
-// `word`: of its turn. `far`: the edge's other end. Then the corners of a face behind `far`, and those of the other face before it.
+// `word`: where its turn is. `far`: the edge's other end. Then the corners of a face behind `far`, and those of the other face before it.
 EdgeEnd edgeEnd(FanRecord r, uint word, vec3 far, vec3 across, vec3 last, vec3 otherNext, vec3 otherAcross) {
     vec4 turn = uintBitsToFloat(tableElement(word & kTurnMask));
     return EdgeEnd(limitOf(r), spokeTangent(r, turn.xy), faceOffset(r, far, across, last),

@@ -8,7 +8,7 @@ SUPPLE_SHARED_BEGIN
 
 SUPPLE_SHARED_FUNCTION vec4 noTurn() { return vec4(0.0f, 0.0f, 0.0f, 1.0f); }
 
-// Of unit length; a zero quaternion counts as no rotation.
+// The quaternion at unit length; a zero one counts as no rotation.
 SUPPLE_SHARED_FUNCTION vec4 unit(vec4 q) {
     SUPPLE_PRECISE float size = max(largestOf(abs(vec3(q))), abs(q.w));
     SUPPLE_PRECISE vec4 scaled = q * broughtDown(size); // so that squares neither vanish nor overflow
@@ -49,8 +49,8 @@ SUPPLE_SHARED_FUNCTION vec4 largestColumn(mat4 m) {
 }
 
 // The rotation R that has most in common with the matrix m of these columns: trace(R^T m) is largest. It is the eigenvector
-// of the largest eigenvalue of Davenport's form, found by squaring: the others fade. Of zeros, no turn. `turnsMirrors`: for a
-// matrix that mirrors, the rotation of -m.
+// of the largest eigenvalue of Davenport's form, found by squaring: the others fade. A matrix of zeros gives no turn.
+// `turnsMirrors`: for a matrix that mirrors, the rotation of -m.
 SUPPLE_SHARED_FUNCTION vec4 fittedRotation(vec3 x, vec3 y, vec3 z, bool turnsMirrors) {
     SUPPLE_PRECISE float size = largestOf(max(max(abs(x), abs(y)), abs(z)));
     SUPPLE_PRECISE float scale = broughtDown(size);

@@ -1,9 +1,10 @@
 // A step of a cloth: extended position based dynamics (Macklin, Mueller, Chentanez: XPBD, MIG 2016) in substeps of one iteration
 // (Macklin and others: Small Steps in Physics Simulation, SCA 2019), so that multipliers begin at 0 and a constraint's step is
-// closed. Lanes of a workgroup share a cloth, and each keeps to vertices of its own. Constraints of a colour touch different vertices, and sums are those of a tree, so
-// the bits are the same for any number of lanes, a power of two up to kClothSums. Needs colliders.h, soft.h; clothTable(); of the instance
-// clothState(), keepClothState(); of the step goalOf(), posedJoint(); of the workgroup placeAt(), keepPlace(), sumAt(), keepSum(),
-// colliderAt(), keepCollider(), meet(), laneOf(), laneCount(). In C++ this is the inside of a class (skinning/cloth_twin.cpp).
+// closed. Lanes of a workgroup share a cloth, and each keeps to vertices of its own. Constraints of a colour touch different
+// vertices, and sums are those of a tree, so the bits are the same for any number of lanes, a power of two up to kClothSums. Needs
+// colliders.h, soft.h; clothTable(); of the instance clothState(), keepClothState(); of the step goalOf(), posedJoint(); of the
+// workgroup placeAt(), keepPlace(), sumAt(), keepSum(), colliderAt(), keepCollider(), meet(), laneOf(), laneCount(). In C++ this
+// is the inside of a class (skinning/cloth_twin.cpp).
 
 struct ClothStep {
     Affine move;   // of the model's frame at the step before; as that one's, if the instance has not moved there
@@ -68,7 +69,7 @@ vec3 frameSpeed(Affine move, vec3 at) {
     SUPPLE_PRECISE vec3 speed = (at - through(move, at)) * float(kSpringSteps);
     return speed;
 }
-// What the frame does less of than the vertex: its speed then, in the frame of now, less what is no news.
+// The speed in the frame that a vertex gains where the frame's motion changes: in the world it goes on as before.
 vec3 kickOf(ClothStep now, vec3 at, vec3 speed) {
     SUPPLE_PRECISE vec3 goesOn = directionThrough(now.move, speed + frameSpeed(now.before, at));
     SUPPLE_PRECISE vec3 kick = shortened((goesOn - frameSpeed(now.move, at)) - speed, kMostClothKick);

@@ -5,8 +5,8 @@
 
 #include "shaders/pose/limbs.h"
 #include "shaders/pose/swing.h"
-#include "shaders/shared/soft.h"
 #include "shaders/shared/pose.h"
+#include "shaders/shared/soft.h"
 
 SUPPLE_SHARED_BEGIN
 

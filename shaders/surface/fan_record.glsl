@@ -1,6 +1,6 @@
 // The records of fans that the pool has instead of coefficients (shared/prep.h), and what corners of patches are made of them: by the
-// operations of surface/vertex.glsl, so positions have the same bits. Offsets may be -0 here where the pool has 0: of a position that
-// shows nothing, as limit points are no -0. Needs tables.glsl, pool.glsl, corner.glsl and shared/prep.h.
+// operations of surface/vertex.glsl, so positions have the same bits. Offsets may be -0 here where the pool has 0. Positions do not
+// show that, as limit points are no -0. Needs tables.glsl, pool.glsl, corner.glsl and shared/prep.h.
 #include "shaders/surface/face.glsl"
 
 struct FanRecord {
@@ -22,7 +22,7 @@ vec3 spokeTangent(FanRecord r, vec2 turn) {
     precise vec3 t = r.e1 * turn.x + r.e2 * turn.y;
     return t;
 }
-// Of a border: the cubic B-spline of the control polygon. `far`: where the spoke ends.
+// A border is the cubic B-spline of the control polygon. `far`: where the spoke ends.
 vec3 borderTangent(FanRecord r, vec3 far) {
     precise vec3 third = (far - r.p0) * (1.0 / 3.0);
     precise vec3 t = third - r.x;
@@ -44,7 +44,7 @@ void setBorders(FanRecord r, uint word, vec3 next, vec3 last, inout Corner c) {
     if ((word & kBorderSpoke) != 0u) c.next = borderTangent(r, next);
     if ((word & kBorderNextSpoke) != 0u) c.last = borderTangent(r, last);
 }
-// Of the patch whose record begins at an element.
+// A corner of the patch whose record begins at an element.
 Corner cornerOfPatch(uint base, uint record, uint corner) {
     uint first = 4u * record, word = tableWord(first + 4u + corner);
     FanRecord r = fanRecord(base, tableWord(first + corner));

@@ -45,7 +45,7 @@ public:
     [[nodiscard]] virtual uint32_t cornerWord(uint32_t corner) const = 0;
     /// The record of a perturbed edge: the words of its ends, and the corners of the cage behind which it lies.
     virtual void writeEdge(uint32_t a, uint32_t b, uint32_t corner, uint32_t twin, TableWriter& writer) const = 0;
-    /// Of a boundary vertex with one face: where its normal comes from.
+    /// Where the normal of a boundary vertex with one face comes from.
     [[nodiscard]] virtual uint32_t cornerNormal(uint32_t v) const = 0;
 };
 
