@@ -13,6 +13,7 @@ namespace supple {
     return {std::u8string(text.begin(), text.end())};
 }
 
+/// The other way round. Throws where a path is no text: on Windows if half of a UTF-16 pair is missing.
 [[nodiscard]] inline std::string utf8Text(const std::filesystem::path& path) {
     const std::u8string text = path.u8string();
     return {text.begin(), text.end()};

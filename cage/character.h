@@ -261,8 +261,8 @@ struct Cloth {
     float tether = 1.02f;            ///< the farthest from where it hangs, by the way over edges; 0: any
     float drag = 0.1f;               ///< of its speed in the model, lost in 1/60 s
     float air = 0.05f;               ///< of its speed through the air, lost in 1/60 s
-    float gravity = 9.81f;           ///< in model space
-    float hitRadius = 0.01f;         ///< against colliders
+    float gravity = 9.81f;           ///< units of model space a second squared
+    float hitRadius = 0.01f;         ///< against colliders, in units of model space
     uint32_t substeps = 4;           ///< of a step of 1/60 s
     std::vector<uint32_t> colliders; ///< SpringBones::colliders
 

@@ -245,8 +245,9 @@ void Check::soft() {
 }
 
 void Check::mush() {
-    for (const Part& part : character_.parts) {
-        require(!part.smoothing || isSound(*part.smoothing), "a smoothing's numbers are out of range");
+    for (size_t p = 0; p < character_.parts.size(); ++p) {
+        const std::optional<Smoothing>& own = character_.parts[p].smoothing;
+        require(!own || isSound(*own), at("part", p) + ": its smoothing's numbers are out of range");
     }
     const std::vector<float>& mask = character_.weights.mushMask;
     require(mask.empty() || mask.size() == character_.cage.vertexCount(), "not one mask of delta mush a vertex");

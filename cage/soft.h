@@ -4,7 +4,6 @@
 #include "cage/character.h"
 #include "cage/limits.h"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace supple::cage {

@@ -12,7 +12,7 @@ struct CodePoint {
     size_t bytes;
 };
 
-/// Of a text that is not empty. 0xFFFD and one byte for what is no UTF-8.
+/// `text` is not empty. 0xFFFD and one byte for what is no UTF-8.
 [[nodiscard]] CodePoint firstCodePoint(std::string_view text);
 
 [[nodiscard]] bool isUtf8(std::string_view text);

@@ -40,7 +40,7 @@ public:
     /// Smooths what is 0 but at some nodes, which are different from each other; `values`: theirs. The nodes where the
     /// result may be something else than 0, in the order in which the edges reach them; see smoothed().
     std::span<const uint32_t> smooth(std::span<const uint32_t> nodes, std::span<const Values> values);
-    /// Of a node that smooth() has named.
+    /// What smooth() has made of a node that it has named.
     [[nodiscard]] const Values& smoothed(uint32_t node) const { return sums_[node]; }
 
 private:

@@ -99,7 +99,7 @@ private:
 
 /// A property of a clip, on its frames.
 struct Track {
-    const Channel* channel = nullptr; ///< nothing for morph weights
+    const Channel* channel = nullptr; ///< null for morph weights
     ChannelPath path = ChannelPath::translation;
     uint32_t place = 0;             ///< of PackedPlaces
     std::vector<glm::dvec3> values; ///< one a frame; of rotations the quarter tangents from the reference
@@ -331,7 +331,7 @@ private:
             }
         }
     }
-    /// Of numbers by morph target; behind the last there are zeros.
+    /// The three of a track, from numbers by morph target; behind the last target there are zeros.
     template <class Numbers>
     [[nodiscard]] glm::dvec3 threeOf(const Numbers& numbers, const Track& track) const {
         const size_t first = 3 * (track.place - order_.nodes.size());

@@ -1,6 +1,7 @@
 #include "skinning/cloth_table.h"
 
 #include "cage/message.h"
+#include "cage/soft.h"
 #include "shaders/shared/pose.h"
 #include "shaders/shared/soft.h"
 #include "skinning/bits.h"
@@ -24,6 +25,8 @@ namespace {
 using namespace shared;
 using cage::kNone;
 using Pair = ClothPairs::Pair;
+
+static_assert(cage::kMaxClothColliders == kMostClothColliders);
 
 constexpr double kMass = 0.01; // of a vertex of weight 1, in kg
 constexpr double kLeastClothWeight = 1e-3;

@@ -63,7 +63,7 @@ namespace {
 twin::ClothCode codeOf(const ClothTable& table, const glm::vec4* state) {
     twin::ClothCode code;
     code.tableWords = table.words.data();
-    code.states = const_cast<glm::vec4*>(state); // read alone
+    code.states = const_cast<glm::vec4*>(state); // nothing writes to it
     return code;
 }
 
@@ -87,7 +87,7 @@ void ClothTwin::step(uint32_t cloth, std::span<const glm::vec4> goals, std::span
     head[6] = glm::vec4(code.knownAfter(own, head[6].x), 0.0f, 0.0f, 0.0f);
 }
 
-void ClothTwin::show(uint32_t cloth, float part, const shared::Affine& place, std::span<glm::vec4> state,
+void ClothTwin::show(uint32_t cloth, float part, const shared::Affine& place, std::span<const glm::vec4> state,
                      std::span<glm::vec4> cage) const {
     twin::ClothCode code = codeOf(*table_, state.data());
     const auto all = code.clothTables(cloth);

@@ -30,11 +30,11 @@ public:
     void step(uint32_t cloth, std::span<const glm::vec4> goals, std::span<const shared::Affine> joints, const Step& now,
               std::span<glm::vec4> state);
     /// Moves the shown vertices of a cage, `part` of the way from the last step but one to the last.
-    void show(uint32_t cloth, float part, const shared::Affine& place, std::span<glm::vec4> state,
+    void show(uint32_t cloth, float part, const shared::Affine& place, std::span<const glm::vec4> state,
               std::span<glm::vec4> cage) const;
 
     [[nodiscard]] uint32_t vertexCount(uint32_t cloth) const;
-    /// Of the table.
+    /// The element of the table where a vertex begins.
     [[nodiscard]] uint32_t vertexElement(uint32_t cloth, uint32_t vertex) const;
     /// Where a vertex is after the last step, how fast it goes, and how far it is from where joints have it.
     [[nodiscard]] glm::vec3 place(uint32_t cloth, uint32_t vertex, std::span<const glm::vec4> state) const;

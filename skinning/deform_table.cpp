@@ -43,7 +43,7 @@ Displacements displacementsOf(uint32_t vertexCount, const cage::Morphs& morphs) 
 
 using TableWords = std::vector<uint32_t>;
 
-/// Of a vertex, the heaviest first.
+/// Those of a vertex, the heaviest first.
 void putInfluences(const cage::SkinWeights& weights, uint32_t vertex, TableWords& words) {
     std::vector<cage::Influence> own(weights.influences.begin() + weights.starts[vertex],
                                      weights.influences.begin() + weights.starts[vertex + 1]);

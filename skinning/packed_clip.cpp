@@ -54,6 +54,10 @@ bool fits(const glm::ivec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kMostWhole;
 }
 
+bool valuesFit(const PackedProperty& property) {
+    return std::all_of(property.values.begin(), property.values.end(), fits);
+}
+
 /// Where the sections of a clip begin, in elements.
 struct Sections {
     Sections(size_t places, size_t constants, size_t animated, uint32_t last)
@@ -108,7 +112,7 @@ using Widths = std::array<uint32_t, 3>;
 uint32_t bitsOf(const Widths& widths) {
     return widths[0] + widths[1] + widths[2];
 }
-/// Of numbers of both signs.
+/// What numbers from `low` to `high`, 0 among them, take when halvesOf() is added.
 uint32_t signedWidth(int low, int high) {
     return static_cast<uint32_t>(
         std::max(std::bit_width(static_cast<uint32_t>(low < 0 ? -low - 1 : 0)) + (low < 0 ? 1 : 0),
@@ -252,11 +256,13 @@ public:
     std::optional<std::vector<uint32_t>> write(double duration) {
         const double rate = rateOf(clip_.last, duration);
         if (animated_.size() > 0xFFFF || constants_.size() > 0xFFFF || !isRate(rate) ||
-            !std::all_of(clip_.properties.begin(), clip_.properties.end(), fitsLayout)) {
+            !std::all_of(clip_.properties.begin(), clip_.properties.end(), valuesFit)) {
             return std::nullopt;
         }
         for (const PackedProperty* const property : animated_) {
-            records_.push_back(recordsOf(*property));
+            if (!allFit(records_.emplace_back(recordsOf(*property)))) {
+                return std::nullopt;
+            }
         }
         const SplitTime split = splitTime(rate);
         words_.assign(4 * sections_.data, 0u);
@@ -524,10 +530,10 @@ private:
                            *std::max_element(record.inner.begin(), record.inner.end()) <= kMostWidth &&
                            2 * outer + inner <= kMostPairBits;
         const auto last = static_cast<size_t>(std::popcount(record.mask));
-        const size_t bits = (last / 2 + 1 + last % 2) * outer + last / 2 * inner;
+        const size_t taken = (last / 2 + 1 + last % 2) * outer + last / 2 * inner;
         // Equal values need no knots in between: what is read stays in proportion to its words.
-        if (!sound || (bits == 0 && record.mask != 1) ||
-            begin + (length + bits + 127) / 128 + kPackedPadding > words_.size() / 4) {
+        if (!sound || (taken == 0 && record.mask != 1) ||
+            begin + (length + taken + 127) / 128 + kPackedPadding > words_.size() / 4) {
             return refuse("a record of a packed clip that does not fit");
         }
         std::vector<uint32_t> knots;
@@ -602,8 +608,7 @@ std::array<uint32_t, 3> referenceNear(const glm::dquat& rotation) {
 }
 
 bool fitsLayout(const PackedProperty& property) {
-    return std::all_of(property.values.begin(), property.values.end(), fits) &&
-           (property.isConstant || allFit(recordsOf(property)));
+    return valuesFit(property) && (property.isConstant || allFit(recordsOf(property)));
 }
 
 void removeEqualKnots(PackedProperty& property) {

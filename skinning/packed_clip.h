@@ -72,8 +72,8 @@ void removeEqualKnots(PackedProperty& property);
 /// Elements that are behind a packed clip's segments: knots are read as two.
 inline constexpr uint32_t kPackedPadding = 2;
 
-/// Nothing if a number is too large for its field. `nodeCount`: of the clip table. There are four words an element, and
-/// offsets count from the first.
+/// Nothing if a number is too large for its field. `places`: of the clip table and the morph targets. There are four
+/// words an element, and offsets count from the first.
 [[nodiscard]] std::optional<std::vector<uint32_t>> packedWords(const PackedClip& clip, double duration,
                                                                const PackedPlaces& places);
 

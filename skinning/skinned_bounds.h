@@ -15,9 +15,9 @@ public:
     /// What the way of skinning needs must outlive this.
     explicit SkinnedBounds(const Skinning& skinning);
 
-    /// Of a box that holds the cages in poses that layers make of the clips (Reach::blended).
+    /// The box of the cages in poses that layers make of the clips (Reach::blended); `linear`: that of linear skinning.
     [[nodiscard]] Box reached(const Reach& reach, const Box& linear) const;
-    /// Of the cages that a palette makes. `morphWeights`: one per target.
+    /// The box of the cages that a palette makes. `morphWeights`: one per target.
     [[nodiscard]] Box posed(const Reach& reach, std::span<const Affine> palette,
                             std::span<const float> morphWeights) const;
 
@@ -27,7 +27,7 @@ private:
     [[nodiscard]] Box grown(const Reach& reach, const Box& linear, double morphed, F&& sizeOf) const;
 
     SkinningMode mode_ = SkinningMode::linear;
-    std::span<const double> arms_; ///< by joint; none: the mode has no centers
+    std::span<const double> arms_; ///< by joint; none: the mode needs none
     double share_ = 0.0;           ///< how far a vertex of an arm of 1 may be from where linear skinning takes it
 };
 

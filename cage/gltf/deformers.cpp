@@ -9,8 +9,6 @@ namespace supple::cage::gltf {
 
 namespace {
 
-constexpr const char* kDeformers = "SUPPLE_deformers";
-
 Smoothing smoothingIn(const Json& from, const std::string& place) {
     Smoothing read;
     read.lambda = numberMember(from, "lambda", read.lambda, kMinSmoothingLambda, kMaxSmoothingLambda, place);
@@ -24,6 +22,10 @@ Smoothing smoothingIn(const Json& from, const std::string& place) {
 }
 
 } // namespace
+
+const Json* deformersOf(const Json& mesh) {
+    return hasExtension(mesh, kDeformers) ? objectIn(member(mesh, "extensions"), kDeformers) : nullptr;
+}
 
 std::optional<SkinningMode> readSkinningMode(const Json& mesh, const std::string& element) {
     const Json* const deformers =
@@ -46,11 +48,9 @@ std::optional<SkinningMode> readSkinningMode(const Json& mesh, const std::string
 
 SmoothingFields readSmoothing(const Document& document, size_t meshIndex) {
     SmoothingFields read;
-    const Json& mesh = document.meshes[meshIndex];
     const std::string place = at("mesh", meshIndex) + " " + kDeformers, own = place + " smoothing";
     document.leniency->leaveOut([&] {
-        const Json* const deformers =
-            hasExtension(mesh, kDeformers) ? objectIn(member(mesh, "extensions"), kDeformers) : nullptr;
+        const Json* const deformers = deformersOf(document.meshes[meshIndex]);
         const Json* const from = deformers != nullptr ? objectMember(*deformers, "smoothing", place) : nullptr;
         if (from != nullptr) {
             read.numbers = smoothingIn(*from, own);

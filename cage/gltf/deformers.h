@@ -10,6 +10,10 @@
 
 namespace supple::cage::gltf {
 
+inline constexpr const char* kDeformers = "SUPPLE_deformers";
+/// The extension of a mesh; null: it has none, or no object.
+[[nodiscard]] const Json* deformersOf(const Json& mesh);
+
 /// `skinning`, if the mesh says it. Throws Refusal.
 [[nodiscard]] std::optional<SkinningMode> readSkinningMode(const Json& mesh, const std::string& element);
 

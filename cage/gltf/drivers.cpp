@@ -1,6 +1,7 @@
 #include "cage/gltf/drivers.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/deformers.h"
 #include "cage/limits.h"
 #include "cage/refusal.h"
 #include "cage/solved_driver.h"
@@ -204,14 +205,10 @@ void checkSolution(const PoseDriver& driver, const std::string& place, Warnings&
 std::vector<PoseDriver> readDrivers(const Document& document, size_t meshIndex, size_t targetCount,
                                     const Skeleton& skeleton) {
     std::vector<PoseDriver> drivers;
-    const Json& mesh = document.meshes[meshIndex];
-    const std::string list = at("mesh", meshIndex) + " SUPPLE_deformers drivers";
+    const std::string mesh = at("mesh", meshIndex) + " " + kDeformers, list = mesh + " drivers";
     document.leniency->leaveOut([&] {
-        const Json* const deformers =
-            hasExtension(mesh, "SUPPLE_deformers") ? objectIn(member(mesh, "extensions"), "SUPPLE_deformers") : nullptr;
-        const Json* const given = deformers != nullptr
-                                      ? arrayMember(*deformers, "drivers", at("mesh", meshIndex) + " SUPPLE_deformers")
-                                      : nullptr;
+        const Json* const deformers = deformersOf(document.meshes[meshIndex]);
+        const Json* const given = deformers != nullptr ? arrayMember(*deformers, "drivers", mesh) : nullptr;
         for (size_t i = 0; given != nullptr && i < given->size(); ++i) {
             const Json& from = (*given)[i];
             document.leniency->leaveOut([&] {

@@ -112,7 +112,7 @@ public:
         out_.clothWeights = std::move(soft.clothWeights);
         document_.leniency->leaveOut([&] {
             if (!mask_.empty() && !isMaskThere_) {
-                refuse(out_.element + " SUPPLE_deformers smoothing mask", "no primitive has " + cage::quoted(mask_));
+                refuse(out_.element + " " + kDeformers + " smoothing mask", "no primitive has " + cage::quoted(mask_));
             }
         });
         readExtrasCreases(document_.meshes[meshIndex], isCounted_, out_, warnings_);
@@ -257,14 +257,10 @@ private:
         const auto number = static_cast<size_t>(&primitive - out_.primitives.data());
         const int cageNumbers = cageNumbers_[number];
         const std::optional<CageExtension>& extension = extensions_[number];
-        const Stream stream{position->second,
-                            cageNumbers,
-                            sets.joints,
-                            sets.weights,
-                            targets,
-                            soft_.accessorsOf(from),
-                            paintedAccessor(from, mask_)};
-        isMaskThere_ = isMaskThere_ || std::get<6>(stream) >= 0;
+        const int mask = paintedAccessor(from, mask_);
+        isMaskThere_ = isMaskThere_ || mask >= 0;
+        const Stream stream{position->second,        cageNumbers, sets.joints, sets.weights, targets,
+                            soft_.accessorsOf(from), mask};
         const auto known = streams_.find(stream);
         primitive.firstVertex = known != streams_.end() ? known->second : static_cast<uint32_t>(out_.positions.size());
         const size_t count = accessorCount(document_, position->second);

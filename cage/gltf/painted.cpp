@@ -1,6 +1,7 @@
 #include "cage/gltf/painted.h"
 
 #include "cage/gltf/accessors.h"
+#include "cage/gltf/deformers.h"
 #include "cage/message.h"
 #include "cage/refusal.h"
 
@@ -8,8 +9,6 @@
 
 namespace supple::cage::gltf {
 namespace {
-
-constexpr const char* kExtension = "SUPPLE_deformers";
 
 std::string readAttribute(const Json& from, const std::string& place) {
     if (!from.isObject()) {
@@ -52,11 +51,9 @@ std::vector<float> readPaintedWeights(const Document& document, int accessor, si
 std::vector<Painted> readPainted(const Document& document, size_t meshIndex, const char* key, size_t most,
                                  const std::function<void(const Json&, const std::string&)>& read) {
     std::vector<Painted> painted;
-    const Json& mesh = document.meshes[meshIndex];
-    const std::string place = at("mesh", meshIndex) + " " + kExtension, list = place + " " + key;
+    const std::string place = at("mesh", meshIndex) + " " + kDeformers, list = place + " " + key;
     document.leniency->leaveOut([&] {
-        const Json* const deformers =
-            hasExtension(mesh, kExtension) ? objectIn(member(mesh, "extensions"), kExtension) : nullptr;
+        const Json* const deformers = deformersOf(document.meshes[meshIndex]);
         const Json* const given = deformers != nullptr ? arrayMember(*deformers, key, place) : nullptr;
         const size_t count = given != nullptr ? given->size() : 0;
         for (size_t i = 0; i < std::min(count, most); ++i) {

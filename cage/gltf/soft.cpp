@@ -38,10 +38,11 @@ Cloth readCloth(const Json& from, const std::string& place) {
     own.air = numberMember(from, "air", own.air, 0.0f, 1.0f, place);
     own.gravity = numberMember(from, "gravity", own.gravity, 0.0f, kMaxClothGravity, place);
     own.hitRadius = numberMember(from, "hitRadius", own.hitRadius, 0.0f, kMaxCoordinate, place);
-    own.substeps = static_cast<uint32_t>(unsignedMember(from, "substeps", place, own.substeps));
-    if (own.substeps < 1 || own.substeps > kMaxClothSubsteps) {
+    const uint64_t substeps = unsignedMember(from, "substeps", place, own.substeps);
+    if (substeps < 1 || substeps > kMaxClothSubsteps) {
         refuse(place + " substeps", "not from 1 to " + std::to_string(kMaxClothSubsteps));
     }
+    own.substeps = static_cast<uint32_t>(substeps);
     if (const Json* const colliders = arrayMember(from, "colliders", place)) {
         if (colliders->size() > kMaxClothColliders) {
             refuse(place + " colliders",

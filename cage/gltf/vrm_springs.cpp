@@ -153,7 +153,7 @@ private:
         return numbers.fault();
     }
 
-    /// Groups and colliders that are left out leave a gap: numbers of a file go through `colliders` and `groups`.
+    /// Groups and colliders that are left out leave a gap: numbers of a file go through `colliders_` and `groups`.
     void readNew(const Json& own) {
         each(itemsIn(own, "colliders"), "VRM colliders", [&](const Json& from, size_t) -> Fault {
             colliders_.push_back(kNone);

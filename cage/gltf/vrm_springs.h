@@ -14,8 +14,8 @@ struct ReadSprings {
 };
 
 /// Those of VRM 1.0 (VRMC_springBone) or, where there are none, of 0.x (secondaryAnimation), whose bones stand for all
-/// that is below them. The skeleton must be read. Entries that make no sense
-/// are left out, with a warning for each list.
+/// that is below them. The skeleton must be read. Entries that make no sense are left out, with a warning for each
+/// list.
 [[nodiscard]] ReadSprings readSpringBones(const Document& document, const Skeleton& skeleton, Warnings& warnings);
 
 } // namespace supple::cage::gltf
