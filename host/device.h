@@ -60,7 +60,7 @@ public:
     [[nodiscard]] VkDeviceSize size() const { return size_; }
     /// Null for MemoryKind::device.
     [[nodiscard]] void* mapped() const { return mapped_; }
-    /// If it was created with VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
+    /// Only of a buffer created with VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
     [[nodiscard]] VkDeviceAddress address() const;
 
 private:
@@ -173,8 +173,8 @@ private:
     [[nodiscard]] Status createInstance(const DeviceOptions& options);
     [[nodiscard]] Status createMessenger();
     [[nodiscard]] Status choosePhysicalDevice(const DeviceOptions& options);
-    void enableFeatures(
-        const DeviceOptions& options); ///< what Supple asks for, and what the hosts' own drawing wants on top
+    /// What Supple asks for, and what the hosts' own drawing wants on top.
+    void enableFeatures(const DeviceOptions& options);
     [[nodiscard]] Status createDevice(const DeviceOptions& options);
     /// Whether its clock can be read beside the host's.
     [[nodiscard]] bool readsClocks() const;

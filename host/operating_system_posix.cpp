@@ -39,27 +39,39 @@ Result<int> endOf(pid_t child, const std::string& command, uint32_t timeout) {
     }
 }
 
+/// Others may have made the pipe that is stdout or stderr non-blocking, as some terminals and runtimes do to all that
+/// share it. Then it refuses what its reader has left no room for: what is printed would end after 64 KiB. Returns the
+/// flags to be restored, or -1 if it blocks already.
+int makeBlocking(int stream) {
+    const int flags = fcntl(stream, F_GETFL);
+    if (flags == -1 || (flags & O_NONBLOCK) == 0) {
+        return -1;
+    }
+    (void)fcntl(stream, F_SETFL, flags & ~O_NONBLOCK);
+    return flags;
+}
+
+void restoreFlags(int stream, long flags) {
+    if (flags != -1) {
+        (void)fcntl(stream, F_SETFL, static_cast<int>(flags));
+    }
+}
+
 } // namespace
 
 std::vector<std::string> utf8Arguments(int argc, char** argv) {
     return {argv + (argc > 0 ? 1 : 0), argv + argc};
 }
 
-// Others may have made the pipe that is stdout non-blocking, as some terminals and runtimes do to all that share it.
-// Then it refuses what its reader has left no room for: what is printed would end after 64 KiB.
 StandardStreams::StandardStreams() {
     std::signal(SIGPIPE, SIG_IGN);
-    const int flags = fcntl(STDOUT_FILENO, F_GETFL);
-    if (flags != -1 && (flags & O_NONBLOCK) != 0) {
-        outputState_ = flags;
-        (void)fcntl(STDOUT_FILENO, F_SETFL, flags & ~O_NONBLOCK);
-    }
+    outputState_ = makeBlocking(STDOUT_FILENO);
+    errorState_ = makeBlocking(STDERR_FILENO);
 }
 
 StandardStreams::~StandardStreams() {
-    if (outputState_ != -1) {
-        (void)fcntl(STDOUT_FILENO, F_SETFL, static_cast<int>(outputState_));
-    }
+    restoreFlags(STDOUT_FILENO, outputState_);
+    restoreFlags(STDERR_FILENO, errorState_);
 }
 
 bool isTerminal(std::FILE* stream) {

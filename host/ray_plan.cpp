@@ -37,9 +37,10 @@ void RayPlan::plan(std::span<const TracedInstance> instances) {
     const size_t count = std::min<size_t>(due_.size(), options_.mostPerFrame);
     std::partial_sort(due_.begin(), due_.begin() + static_cast<ptrdiff_t>(count), due_.end(),
                       [](const Due& a, const Due& b) {
-                          return std::tie(a.rank, a.worked, a.index) < std::tie(b.rank, b.worked, b.index);
+                          return std::tie(a.reason, a.worked, a.index) < std::tie(b.reason, b.worked, b.index);
                       });
-    uint32_t rebuilds = std::max(static_cast<uint32_t>(instances.size()) / options_.rebuildShare, 1u);
+    const uint32_t share = std::max(options_.rebuildShare, 1u);
+    uint32_t rebuilds = std::max(static_cast<uint32_t>(instances.size()) / share, 1u);
     for (size_t i = 0; i < count; ++i)
         give(instances[due_[i].index], due_[i], rebuilds);
     for (const TracedInstance& instance : instances) {
@@ -54,11 +55,11 @@ void RayPlan::addDue(uint32_t index, const TracedInstance& instance) {
     slot.listed = frame_;
     slot.isBuilt = slot.isBuilt && !isNew;
     if (!slot.isBuilt) {
-        due_.push_back({index, 0, slot.worked});
+        due_.push_back({index, Reason::isNew, slot.worked});
     } else if (!std::ranges::equal(slot.hiddenParts, instance.hiddenParts)) {
-        due_.push_back({index, 1, slot.worked});
+        due_.push_back({index, Reason::partsChanged, slot.worked});
     } else if (frame_ - slot.worked >= instance.interval) {
-        due_.push_back({index, 2, slot.worked});
+        due_.push_back({index, Reason::inTurn, slot.worked});
     }
 }
 
@@ -71,22 +72,21 @@ bool RayPlan::isWorn(const TracedInstance& instance) const {
 }
 
 void RayPlan::give(const TracedInstance& instance, const Due& due, uint32_t& rebuilds) {
-    constexpr uint32_t kInTurn = 2;
     Slot& slot = slots_[instance.slot];
-    const bool isRebuilt = due.rank == kInTurn && rebuilds > 0 && isWorn(instance);
+    const bool isRebuilt = due.reason == Reason::inTurn && rebuilds > 0 && isWorn(instance);
     rebuilds -= isRebuilt ? 1 : 0;
     slot.worked = frame_;
-    if (due.rank == kInTurn && !isRebuilt) {
+    if (due.reason == Reason::inTurn && !isRebuilt) {
         if (slot.builtArea == 0.0f) // boxes come frames later
             slot.builtArea = areaOf(instance.box);
         tasks_.push_back({instance.slot, Work::update});
         return;
     }
-    // Who is built in one frame with others grows old in another.
-    const int64_t head = due.rank == 0 ? instance.slot % std::max(options_.rebuildAge, 1u) : 0;
+    // Those that are built in one frame grow old in different ones.
+    const int64_t head = due.reason == Reason::isNew ? instance.slot % std::max(options_.rebuildAge, 1u) : 0;
     slot.isBuilt = true;
     slot.built = frame_ - head;
-    slot.builtArea = due.rank == 0 ? 0.0f : areaOf(instance.box); // the box of who is new is of before
+    slot.builtArea = due.reason == Reason::isNew ? 0.0f : areaOf(instance.box); // a new one's box comes later
     slot.hiddenParts.assign(instance.hiddenParts.begin(), instance.hiddenParts.end());
     tasks_.push_back({instance.slot, Work::build});
 }

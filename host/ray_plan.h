@@ -31,7 +31,7 @@ struct TracedInstance {
 struct RayPlanOptions {
     uint32_t mostPerFrame = 16; ///< structures that a frame builds or updates
     uint32_t rebuildAge = 64;   ///< frames after which one is built anew
-    /// Of the instances traced, one in so many is built anew in a frame for its age or its box.
+    /// In a frame, one in so many of the traced instances may be built anew for its age or its box; one always may.
     uint32_t rebuildShare = 16;
 };
 
@@ -65,9 +65,11 @@ private:
         float builtArea = 0.0f;                    ///< of the box when it was built; 0: not known
         std::vector<uint32_t> hiddenParts;         ///< when it was built
     };
+    /// Why a structure is worked on; what comes first goes first.
+    enum class Reason { isNew, partsChanged, inTurn };
     struct Due {
         uint32_t index = 0; ///< of the instance
-        uint32_t rank = 0;  ///< 0: it is new; 1: other parts are hidden; 2: its turn to be updated
+        Reason reason = Reason::isNew;
         int64_t worked = 0;
     };
     void addDue(uint32_t index, const TracedInstance& instance);

@@ -65,7 +65,7 @@ public:
 
     /// Records builds and updates of this frame, behind its suppleRecord, which names kBuildUse in `after`.
     void record(VkCommandBuffer commands, std::span<const TracedInstance> instances);
-    /// Of the last record(): what a structure over all has of the group.
+    /// What a structure over all has of the group, after the last record(). Valid until the next one.
     [[nodiscard]] std::span<const VkAccelerationStructureInstanceKHR> instances() const { return instances_; }
     [[nodiscard]] const RayPlan& plan() const { return plan_; }
 
@@ -93,7 +93,8 @@ private:
     VkDeviceSize sliceBytes_ = 0;
     std::vector<RayStructure> structures_; ///< by slot
     std::vector<VkAccelerationStructureInstanceKHR> instances_;
-    // Of a call: for each structure as many as there are geometries.
+    // What record() hands to Vulkan: an entry for each structure that it works on. In descriptions_ and ranges_ each
+    // structure has one for each of its geometries.
     std::vector<VkAccelerationStructureBuildGeometryInfoKHR> builds_;
     std::vector<VkAccelerationStructureGeometryKHR> descriptions_;
     std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges_;

@@ -4,7 +4,8 @@
 Each file is baked with every scheme, rate and mapping, in the first clip's pose where it has a clip, and drawn as a small crowd in a
 view; the files that the two programs write must have the same bytes. Where both refuse with the same exit code and the same message
 they agree as well. With --positions, OLD and NEW may run on two drivers: of what is baked, only positions are compared, and a driver
-may refuse what is too large for it. Prints a line for each difference and the counts at the end. Exit code: 0 no difference, 1 differences, 2 bad usage.
+may refuse what is too large for it. Prints a line for each difference and the counts at the end. Exit code: 0 no difference,
+1 differences, 2 bad usage.
 """
 import argparse
 import concurrent.futures

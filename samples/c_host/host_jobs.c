@@ -2,8 +2,6 @@
 
 #include "host_threads.h"
 
-#include <stddef.h>
-
 #define JOB_THREADS 3 /* beside the one that calls */
 
 typedef struct Jobs {
@@ -28,13 +26,10 @@ static void takeJobs(void* argument) {
 }
 
 void runHostJobs(uint32_t count, void (*job)(void* jobData, uint32_t i), void* jobData, void* user) {
-    Jobs jobs = {NULL, NULL, 0, 0, HOST_MUTEX_INITIALIZER};
+    Jobs jobs = {job, jobData, count, 0, HOST_MUTEX_INITIALIZER};
     HostThread threads[JOB_THREADS];
     uint32_t started = 0;
     (void)user;
-    jobs.job = job;
-    jobs.jobData = jobData;
-    jobs.count = count;
     while (started < JOB_THREADS && started + 1 < count && hostStartThread(&threads[started], takeJobs, &jobs)) {
         ++started;
     }

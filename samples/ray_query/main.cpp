@@ -20,7 +20,9 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace {
 

@@ -1,6 +1,7 @@
 #include "tools/bench/kernels.h"
 
 #include "host/context.h"
+#include "tools/bench/clocks.h"
 #include "tools/bench/crowd_character.h"
 #include "tools/bench/pass_times.h"
 #include "tools/bench/playing_group.h"
@@ -8,8 +9,6 @@
 #include "tools/common/schemes.h"
 #include "tools/common/statistics.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -37,20 +36,17 @@ constexpr KernelSubject kKernelSubjects[] = {
 constexpr uint32_t kKernelVertexBytes = 16, kPositionBytes = 12;
 constexpr uint32_t kWarmKernelFrames = 2, kKernelViewVertices = 1u << 20;
 
-double millisecondsSince(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+Json spread(const std::vector<double>& values) {
+    const tools::Summary summary = tools::summarize(values);
+    return {{"median", summary.median}, {"least", summary.min}, {"largest", summary.max}};
 }
 
-Json spread(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return {{"median", tools::quantile(values, 0.5)}, {"least", values.front()}, {"largest", values.back()}};
-}
 Json spreadOfRatios(const std::vector<double>& own, const std::vector<double>& first) {
     std::vector<double> ratios;
     for (size_t i = 0; i < own.size(); ++i) {
         ratios.push_back(own[i] / first[i]);
     }
-    return spread(std::move(ratios));
+    return spread(ratios);
 }
 
 Result<cage::Character> characterOf(const KernelSubject& subject) {
@@ -94,14 +90,14 @@ public:
             view_ = desc.view = *view;
         }
         desc.poseSource = character.clips.empty() ? SUPPLE_POSES_SET : SUPPLE_POSES_PLAYBACK;
-        const auto begin = std::chrono::steady_clock::now();
+        const double begin = wallSeconds();
         const Result<SuppleGroup> group = way_.workbench->createGroup(desc);
         if (!group) {
             return group.error();
         }
         group_ = *group;
         const Status status = frame(0);
-        firstFrameMs_ = millisecondsSince(begin);
+        firstFrameMs_ = 1e3 * (wallSeconds() - begin);
         return status;
     }
     Status frame(uint32_t flags) {
@@ -115,7 +111,7 @@ public:
     [[nodiscard]] SuppleGroup id() const { return group_; }
     [[nodiscard]] SuppleView view() const { return view_; }
     [[nodiscard]] double firstFrameMs() const { return firstFrameMs_; }
-    /// Of the first instance.
+    /// The first instance's.
     [[nodiscard]] Result<std::vector<std::byte>> vertices() const {
         const host::GroupOutput out = workbench().output(group_);
         const SuppleBufferRange all = out.streams.vertices;
@@ -159,7 +155,9 @@ Status compareBits(const KernelGroups& groups, const KernelSubject& subject) {
         if (!own) {
             return own.error();
         }
-        first = first.empty() ? *own : first;
+        if (first.empty()) {
+            first = *own;
+        }
         for (size_t at = 0; at < own->size(); at += kKernelVertexBytes) {
             if (std::memcmp(&(*own)[at], &first[at], kPositionBytes) != 0) {
                 return Error{ErrorCode::asset, std::string("contestants differ: positions of ") + subject.cage + ", " +

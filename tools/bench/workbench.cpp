@@ -24,7 +24,7 @@ void computeBarrier(VkCommandBuffer commands) {
     host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite});
 }
 
-/// Of dispatches that come `of` at a time, for window after window of instances, lets one through.
+/// For each window of instances come `of` dispatches: lets one of them through.
 class OneOfDispatches final : public gpu::Dispatches {
 public:
     OneOfDispatches(const gpu::Device& device, VkCommandBuffer commands, size_t which, size_t of)

@@ -1,6 +1,9 @@
 #include "tools/gltf/soft_writer.h"
 
+#include "tools/gltf/soft_numbers.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace supple::cage::gltf {
 namespace {
@@ -56,10 +59,9 @@ std::string clothAttribute(size_t cloth) {
 json writeJiggles(std::span<const Jiggle> jiggles) {
     json list = json::array();
     for (size_t j = 0; j < jiggles.size(); ++j) {
-        list.push_back({{"weights", jiggleAttribute(j)},
-                        {"frequency", jiggles[j].frequency},
-                        {"damping", jiggles[j].damping},
-                        {"limit", jiggles[j].limit}});
+        json jiggle = softNumbers(jiggles[j]);
+        jiggle["weights"] = jiggleAttribute(j);
+        list.push_back(std::move(jiggle));
     }
     return list;
 }
@@ -67,19 +69,10 @@ json writeJiggles(std::span<const Jiggle> jiggles) {
 json writeCloths(std::span<const Cloth> cloths) {
     json list = json::array();
     for (size_t c = 0; c < cloths.size(); ++c) {
-        const Cloth& own = cloths[c];
-        list.push_back({{"weights", clothAttribute(c)},
-                        {"stretch", own.stretch},
-                        {"shear", own.shear},
-                        {"bend", own.bend},
-                        {"volume", own.volume},
-                        {"tether", own.tether},
-                        {"drag", own.drag},
-                        {"air", own.air},
-                        {"gravity", own.gravity},
-                        {"hitRadius", own.hitRadius},
-                        {"substeps", own.substeps},
-                        {"colliders", own.colliders}});
+        json cloth = softNumbers(cloths[c]);
+        cloth["weights"] = clothAttribute(c);
+        cloth["colliders"] = cloths[c].colliders;
+        list.push_back(std::move(cloth));
     }
     return list;
 }

@@ -9,6 +9,7 @@
 #include "skinning/update_errors.h"
 #include "surface/schemes.h"
 #include "tools/common/character_file.h"
+#include "tools/common/formatted.h"
 #include "tools/supple/command.h"
 #include "tools/supple/compare.h"
 #include "tools/supple/folds.h"
@@ -513,10 +514,8 @@ void printText(const InspectOptions& options, const cage::Character& character, 
         printLine("skinning", cage::skinningModeName(*skinning));
     }
     if (const std::optional<cage::Smoothing> smoothing = character.parts[0].smoothing) {
-        char text[64];
-        std::snprintf(text, sizeof text, "lambda %g, %u iterations", static_cast<double>(smoothing->lambda),
-                      smoothing->iterations);
-        printLine("smoothing", text);
+        printLine("smoothing",
+                  formatted("lambda %g, %u iterations", static_cast<double>(smoothing->lambda), smoothing->iterations));
     }
     printLine("vertices", std::to_string(cage.vertexCount()) + " (" + std::to_string(character.sourceVertexCount) +
                               " in the file, " + std::to_string(character.seamVertexCount) + " merged at seams)");

@@ -47,6 +47,7 @@ int run(const std::vector<std::string>& arguments) {
     bindReplay(app, exitCode);
 
     try {
+        // The last one first, as CLI11 wants them.
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {

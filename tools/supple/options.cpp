@@ -113,7 +113,6 @@ void bindRate(CLI::App& command, uint32_t& rate) {
 
 namespace {
 
-/// By SuppleUvInterpolation.
 /// By SuppleSkinning.
 constexpr const char* kSkinnings[] = {"linear", "dual-quaternion", "centers", "mush", "mush-light", "file"};
 static_assert(SUPPLE_SKINNING_FROM_FILE == std::size(kSkinnings) - 1);
@@ -349,8 +348,7 @@ void bindSimulate(CLI::App& command, double& seconds) {
     command
         .add_option("--simulate", seconds,
                     "Joints swing by the springs of the file, vertices jiggle, cloth hangs: the clip has played, in a "
-                    "loop, for "
-                    "so long before")
+                    "loop, for so long before")
         ->check(CLI::Range(0.001, 3600.0))
         ->type_name("SECONDS");
 }

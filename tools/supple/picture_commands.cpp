@@ -130,8 +130,8 @@ void bindTrace(CLI::App& command, DrawOptions& draw) {
     CLI::Option* const trace =
         command.add_flag("--trace", draw.trace,
                          "Shadows and the darkness of corners by rays that meet the surface, instead of shadow maps; "
-                         "the device needs ray "
-                         "queries. Materials with holes throw shadows as if they had none, glass throws none");
+                         "the device needs ray queries. Materials with holes throw shadows as if they had none, "
+                         "glass throws none");
     for (const char* other : {"--levels", "--split"})
         trace->excludes(command.get_option(other));
 }

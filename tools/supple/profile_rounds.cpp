@@ -44,7 +44,7 @@ public:
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
     }
-    [[nodiscard]] std::string file() const { return utf8Text(path_ / "round.json"); }
+    [[nodiscard]] std::filesystem::path file() const { return path_ / "round.json"; }
 
 private:
     std::filesystem::path path_;
@@ -55,11 +55,10 @@ Status measure(const std::string& command, const std::vector<std::string>& argum
     if (Status status = host::runCommand(command, arguments, timeout); !status) {
         return status;
     }
-    std::ifstream file(utf8Path(scratch.file()));
+    std::ifstream file(scratch.file());
     const auto result = nlohmann::ordered_json::parse(file, nullptr, false);
     file.close();
-    std::filesystem::remove(
-        utf8Path(scratch.file())); // a command that writes nothing must not seem to have measured this
+    std::filesystem::remove(scratch.file()); // a command that writes nothing must not seem to have measured this
     Result<std::vector<MeasuredRun>> measured = measuredRuns(result, command);
     if (!measured) {
         return measured.error();
@@ -73,7 +72,7 @@ Status measure(const std::string& command, const std::vector<std::string>& argum
 Result<MeasuredPair> measureInTurns(const RoundsOptions& options) {
     const Scratch scratch;
     std::vector<std::string> arguments = sharedArguments(options.arguments);
-    arguments.insert(arguments.end(), {"--frames", std::to_string(options.frames), "--json", scratch.file()});
+    arguments.insert(arguments.end(), {"--frames", std::to_string(options.frames), "--json", utf8Text(scratch.file())});
     const Result<std::string> own = host::ownExecutable();
     if (!own) {
         return Error{own.error().code, "--against: " + own.error().message};
