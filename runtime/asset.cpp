@@ -76,6 +76,7 @@ Status Asset::makeTable(const gpu::Device& device, skinning::SkinTableKind kind,
                         const std::shared_ptr<const std::vector<uint32_t>>& words) {
     constexpr const char* kNames[] = {"skin tables", "skin tables with centers", "skin tables of delta mush",
                                       "skin tables of light delta mush"};
+    static_assert(std::size(kNames) == skinning::kSkinTables);
     Result<gpu::StaticBuffers> made = upload(device, character.name + ": ", kNames[static_cast<size_t>(kind)], words);
     if (!made) {
         return made.error();

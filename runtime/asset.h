@@ -33,7 +33,7 @@ struct SchemeTables {
     [[nodiscard]] const surface::Tables& tables() const { return prepared->tables; }
 };
 
-/// What is soft of an asset, of a kind.
+/// What an asset has of one kind of what is soft: vertices that jiggle, or cloths.
 struct SoftOfAsset {
     gpu::StaticBuffers table;   ///< 0: as the device reads it (shaders/shared/soft.h)
     uint32_t count = 0;         ///< vertices that jiggle, or cloths
@@ -42,7 +42,7 @@ struct SoftOfAsset {
 
 /// The deform table of a way of skinning.
 struct SkinTables {
-    gpu::StaticBuffers buffers;                    ///< 0: it
+    gpu::StaticBuffers buffers;                    ///< 0: the table
     uint32_t firstInfluences = 0, firstCenter = 0; ///< skinning::DeformTable
 };
 

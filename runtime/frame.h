@@ -108,7 +108,7 @@ struct PosePlaces {
 void recordRow(const Frame& frame, const PassRow& row, Timings::Recording& timing);
 /// The same of a row of the table of cage stages.
 void recordStageRow(const Frame& frame, size_t stage, const CageStageRow& row, Timings::Recording& timing);
-/// A row with both.
+/// The same with its label and its barrier.
 void recordPass(const Frame& frame, const PassRow& row, Timings::Recording& timing);
 void recordBarrier(const Frame& frame, Behind behind);
 

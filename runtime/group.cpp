@@ -104,6 +104,7 @@ Result<std::shared_ptr<Group>> Group::remade(const GroupShared& shared, std::sha
         return rate.error();
     }
     group.origin_ = origin_;
+    group.surfaceBuffers_.takePlaceOf(surfaceBuffers_);
     if (!follows()) {
         group.instances_->takeOver(*instances_, match);
         group.stages_.takeOver(stages_, slots().end(), match);
@@ -462,6 +463,7 @@ VkDeviceSize Group::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame)
 
 void Group::recordWaiting(VkCommandBuffer commandBuffer, uint64_t frame) {
     waitingFrame_ = lastRecordedFrame_ = frame;
+    leftOutAll_ = listing_.leavesOutAll();
     points_.noteAsked(frame);
     if (!noDraws_.due()) {
         return;
@@ -501,6 +503,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     }
     passesBefore_ = std::exchange(passesFrame_, frame.number);
     lastRecordedFrame_ = frame.number;
+    leftOutAll_ = listing_.leavesOutAll();
     points_.noteAsked(frame.number);
     bool changed = listing_.changed(slots());
     PassCost cost =

@@ -279,6 +279,7 @@ private:
     RecordedOnce emptyList_; ///< the list pass of a frame in which nothing is to list
     bool listsSeen_ = false;
     bool outputsAsked_ = false, staticsThere_ = false, lackTold_ = false;
+    bool leftOutAll_ = false;       ///< by the last recording: InstanceListing::leavesOutAll()
     uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
 };
 

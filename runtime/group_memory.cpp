@@ -19,7 +19,7 @@ bool Group::findsInstance() {
 }
 
 uint32_t Group::unposed() const {
-    if (!listing_.leavesOutAll()) {
+    if (!leftOutAll_) {
         return outOfSight_.count();
     }
     uint32_t shown = 0;
@@ -85,10 +85,11 @@ Result<bool> Group::fitMemory(uint64_t frame, uint64_t completedFrame,
     }
     const bool keeps = (!follows() && drawnElsewhere()) || findsInstance();
     if (surfaceBuffers_.areThere()) {
-        if (!keeps) {
-            giveSurfaces(frame);
+        if (keeps || lacksStatics()) { // the next frame zeroes them for one that was cancelled
+            return false;
         }
-        return !keeps;
+        giveSurfaces(frame);
+        return true;
     }
     if (keeps) {
         const Status taken = takeSurfaces(frame, hashes);
@@ -116,8 +117,7 @@ void Context::fitMemory() {
         if (const Status fits = fitMemory(group); !fits && group.lacksMemoryAnew()) {
             log(SUPPLE_SEVERITY_WARNING, SUPPLE_MESSAGE_DEVICE_MEMORY,
                 group.asset().character.name +
-                    ": nothing of the group is drawn, as there is no memory for what it "
-                    "has given back: " +
+                    ": nothing of the group is drawn, as there is no memory for what it has given back: " +
                     fits.error().message);
         }
     });

@@ -80,7 +80,7 @@ public:
 private:
     /// The asset has its clip table: whether joints swing, and not too many.
     [[nodiscard]] Status takeSprings();
-    /// Whether vertices jiggle, and none takes too much; then the asset has its table.
+    /// Whether something is soft, and takes not too much; then the asset has its tables.
     [[nodiscard]] Status takeSoft();
     void takeCreaseAlphas(const InstanceSet& other, const AssetMatch& match);
 

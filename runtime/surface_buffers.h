@@ -40,6 +40,8 @@ public:
     /// They are there again: empty, if they were freed.
     [[nodiscard]] Status take(const gpu::Device& device);
 
+    /// The group takes the place of one whose buffers these were: the version goes on from theirs.
+    void takePlaceOf(const SurfaceBuffers& before) { version_ = before.version_ + (before.areThere() ? 0 : 1); }
     /// Rises whenever they go or come.
     [[nodiscard]] uint64_t version() const { return version_; }
     [[nodiscard]] gpu::MemoryUse use() const;

@@ -127,7 +127,7 @@ private:
     [[nodiscard]] Status createBuffers();
     /// Behind all other buffers of the plan. `indexBytes`: of grids.
     [[nodiscard]] Status planPools(gpu::BufferPlan& plan, VkDeviceSize indexBytes);
-    /// Of a pool of coefficients, beside `others`. `most`: that a device can bind.
+    /// The bytes of each pool of coefficients, if all other buffers take `others` and the device can bind `most`.
     [[nodiscard]] Result<VkDeviceSize> poolBytes(VkDeviceSize others, VkDeviceSize most, uint32_t pools) const;
     [[nodiscard]] Status createMapped();               ///< for uploads, and for what the host reads
     [[nodiscard]] std::vector<uint16_t> layOutGrids(); ///< their indices; the host's words say where each grid is

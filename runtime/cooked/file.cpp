@@ -165,7 +165,7 @@ Status readBeginning(std::span<const std::byte> bytes, const std::string& name, 
     return success();
 }
 
-/// One a vertex, or zeros.
+/// For each vertex (point, 1), or zeros if it has none.
 bool arePlaces(const std::vector<glm::vec4>& points, size_t vertexCount) {
     return points.size() == vertexCount && std::all_of(points.begin(), points.end(), [](const glm::vec4& point) {
                return std::isfinite(point.x + point.y + point.z) && (point.w == 0.0f || point.w == 1.0f);

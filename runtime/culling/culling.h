@@ -52,11 +52,11 @@ public:
         const DrawnParts* parts = nullptr;
         uint32_t firstRate = 0; ///< segments along an edge of the cage; each further rate has twice as many
         uint32_t poolUnits = 0; ///< of the view's pool (shared::kPoolUnit)
-        // Of a group whose surfaces read the coefficients of the one that it follows:
-        const Culling* leader = nullptr; ///< during creation: of that group
+        // If surfaces of the group read the coefficients of the group that it follows:
+        const Culling* leader = nullptr; ///< during creation: that of the followed group
         SharerPlace place;
     };
-    /// `needs`: of every surface of the group.
+    /// `surfaces`: what every surface of the group asks for.
     [[nodiscard]] static std::unique_ptr<Culling> create(Desc desc, std::span<const Surface> surfaces);
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging);
     /// What the passes read and write beside the group's own, once the plans are carried out.

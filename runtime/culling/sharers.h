@@ -12,7 +12,7 @@
 
 namespace supple::runtime {
 
-/// Of one group that is followed.
+/// The places that a followed group has for those who read its coefficients.
 class Sharers {
 public:
     /// A place that nobody has; nothing: all are taken.
@@ -38,7 +38,7 @@ private:
     std::array<bool, shared::kMaxSharers> taken_{};
 };
 
-/// A place among them, as long as this lives. The group that is followed may go before.
+/// One of these places, taken as long as this lives. The group that is followed may go before.
 class SharerPlace {
 public:
     SharerPlace() = default;

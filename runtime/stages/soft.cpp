@@ -122,6 +122,7 @@ private:
     [[nodiscard]] SoftPush pushOf(uint32_t window) const {
         const Playback::StepPoses steps = playback().stepPoses();
         const PoseList::Window& listed = playback().listedPoses(window);
+        const SkinTables& skin = asset_->skin(instances_->skinning());
         SoftPush push{};
         push.count = soft_->count;
         push.firstInstance = listed.poses.first;
@@ -135,8 +136,8 @@ private:
         push.stateStride = stateStride_;
         push.cageStride = cageStride_;
         push.morphWeights = instances_->poseLayout().morphWeights;
-        push.firstInfluences = asset_->skin(instances_->skinning()).firstInfluences;
-        push.firstCenter = asset_->skin(instances_->skinning()).firstCenter;
+        push.firstInfluences = skin.firstInfluences;
+        push.firstCenter = skin.firstCenter;
         return push;
     }
 

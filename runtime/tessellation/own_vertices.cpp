@@ -65,7 +65,9 @@ Result<IndexBytes> OwnVertices::layOutMesh(const surface::Evaluation& evaluation
     if (const Status fits = checkRayIndices(mesh.indices.size()); !fits) {
         return fits.error();
     }
-    setRayRanges(mesh);
+    if (isTraced()) {
+        setRayRanges(mesh);
+    }
     return IndexBytes(std::move(mesh.indices));
 }
 

@@ -283,8 +283,8 @@ typedef struct SuppleMemoryCallbacks {
      *   "supple tasks", "supple tasks staging"; if a recording has had hashes, "supple hashes" and "supple hashes, read
      *   back";
      * - asset: "supple skin tables", "supple vertices of a piece", "supple surface tables", "supple clip tables";
-     * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices" (and
-     * those for ray tracing);
+     * - group: "supple instances" (this holds its outputs, too), "supple list staging", "supple grid indices" (this
+     *   holds those for ray tracing, too);
      * - its boxes, for the host: "supple bounds, read back";
      * - its instances: "supple poses", "supple user data staging", "supple playback", "supple playback staging";
      * - view: "supple view", "supple view staging", "supple view statistics", "supple view, grid indices".
@@ -1120,9 +1120,10 @@ typedef struct SuppleGroupDesc {
      * takes the memory before the frame. An instance that only comes into sight later in that frame is drawn from the
      * next frame on, as one that was hidden until then: it has no motion in its first frame. If there is no memory, the
      * log says so (SUPPLE_MESSAGE_DEVICE_MEMORY), nothing of the group is drawn, and each suppleBeginFrame tries again.
-     * Whenever memory goes or comes, suppleBeginFrame raises SuppleGroupInfo.surfaceVersion: ask for the outputs of
-     * grids and meshes anew. They have null buffers meanwhile. The buffers of a view stay. Instances, poses, cages and
-     * points stay too. A group whose instances another group draws (instancesOf) keeps its memory. */
+     * Whenever memory goes or comes, SuppleGroupInfo.surfaceVersion rises: ask for the outputs of grids and meshes, and
+     * for ray geometry, anew. They have null buffers meanwhile. The buffers of a view stay. Instances, poses, cages and
+     * points stay too. A group whose instances another group draws (instancesOf) keeps its memory: suppleCreateGroup of
+     * the other one takes it again. */
     uint64_t keepUnseenFrames;
 } SuppleGroupDesc;
 
@@ -1465,7 +1466,7 @@ typedef struct SuppleGroupInfo {
     SuppleSkinning skinning; /**< how Supple skins its cages, if it does: never FROM_FILE */
     /** 1: the group has given back the memory of its surfaces (SuppleGroupDesc.keepUnseenFrames), else 0. */
     uint32_t surfacesGivenBack;
-    uint64_t surfaceVersion; /**< rises when suppleBeginFrame gives that memory back or takes it again */
+    uint64_t surfaceVersion; /**< rises when that memory goes or comes */
 } SuppleGroupInfo;
 
 /** Fills out. */
@@ -1748,8 +1749,8 @@ typedef struct SuppleMemoryUse {
     VkDeviceSize readback;     /**< what comes back: statistics of views, boxes, timings on CPU devices */
     VkDeviceSize spare;        /**< of the context alone: in blocks, and free for what comes; never mapped */
     VkDeviceSize spareVisible; /**< the same of what is mapped */
-    /** Of a group alone: what it has given back and takes again (SuppleGroupDesc.keepUnseenFrames). It counts nowhere
-     * else. */
+    /** What a group has given back and will take again (SuppleGroupDesc.keepUnseenFrames). No other number counts it.
+     * 0 for all but groups. */
     VkDeviceSize givenBack;
 } SuppleMemoryUse;
 

@@ -24,14 +24,16 @@ typedef struct SuppleRayRange {
     uint32_t part;          /**< of the asset: suppleGetPartInfo */
 } SuppleRayRange;
 
-/** Filled by suppleGetRayGeometry. Addresses and arrays are valid until the group is destroyed or made anew. */
+/** Filled by suppleGetRayGeometry. Addresses and arrays are valid until the group is destroyed or made anew. Where
+ * vertices are changes too when SuppleGroupInfo.surfaceVersion rises: while their memory is given back
+ * (SuppleGroupDesc.keepUnseenFrames), the address is 0. */
 typedef struct SuppleRayGeometry {
     uint32_t structSize;
     /** R32G32B32_SFLOAT: the position, with which every vertex begins */
     VkFormat format;
-    /** Of slot 0. The vertices of slot s begin s * instanceStride bytes behind it: give that address for vertexData,
-     * and leave firstVertex 0. A frame that records the group writes those of its visible instances. Before its first
-     * frame a slot holds nothing that could be built from. */
+    /** Where slot 0 begins. The vertices of slot s begin s * instanceStride bytes behind it: give that address for
+     * vertexData, and leave firstVertex 0. A frame that records the group writes those of its visible instances. Before
+     * its first frame a slot holds nothing that could be built from. */
     VkDeviceAddress vertices;
     VkDeviceSize vertexStride;     /**< bytes: 12, 16 or 24 (SuppleVertexFormat) */
     VkDeviceSize instanceStride;   /**< bytes from slot to slot */
@@ -40,10 +42,10 @@ typedef struct SuppleRayGeometry {
     uint32_t maxVertex;            /**< the largest index */
     uint32_t triangleCount;        /**< of all ranges */
     uint32_t rangeCount;           /**< entries of ranges */
-    /** One for each of SuppleGridOutput.drawRanges, in their order. So of a hit, geometryIndex is a draw range. With
-     * SUPPLE_TESSELLATION_GRIDS, primitiveIndex is a triangle of the patch firstPatch + primitiveIndex / (indexCount /
-     * 3) of that range, and primitiveIndex % (indexCount / 3) says which: the draw range's own indices have its
-     * corners. */
+    /** One for each of SuppleGridOutput.drawRanges, in their order. So the geometryIndex of a hit is the number of a
+     * draw range. With SUPPLE_TESSELLATION_GRIDS, primitiveIndex is a triangle of the patch firstPatch + primitiveIndex
+     * / (indexCount / 3) of that range, and primitiveIndex % (indexCount / 3) says which: the draw range's own indices
+     * have its corners. */
     const SuppleRayRange* ranges;
 } SuppleRayGeometry;
 
