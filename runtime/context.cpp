@@ -304,7 +304,8 @@ Status Context::follow(const Asset& asset, GroupShared& shared, SuppleGroupDesc&
     shared.leader = leader.get();
     desc.capacity = shared.instances->capacity();
     desc.poseSource = shared.instances->source();
-    return fitMemory(*leader); // it is followed now
+    const Status fits = fitMemory(*leader); // it is followed now
+    return fits ? fits : Error{fits.error().code, "suppleCreateGroup: instancesOf: " + fits.error().message};
 }
 
 Result<uint64_t> Context::createGroup(const SuppleGroupDesc& desc) {

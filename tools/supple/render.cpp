@@ -211,6 +211,8 @@ int runRender(const RenderOptions& options) {
         return fail(kExitUsage, picture.error().message);
     if (options.draw.trace && options.draw.scheme == "cage")
         return fail(kExitUsage, "--trace: rays meet a surface, and --scheme cage has none");
+    if (options.draw.trace && picture->view == host::shared::kViewLevels)
+        return fail(kExitUsage, "--trace: rays meet a surface of one rate, and --view levels has levels");
     const OutputPath output[] = {{"--output", options.output}};
     if (const Status writable = canWrite(output); !writable)
         return fail(writable.error());

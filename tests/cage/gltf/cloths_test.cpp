@@ -59,6 +59,7 @@ TEST(GltfCloths, FaultsAreNamed) {
     is(clothedBut("1.1", "0.5"), place + " tether: neither 0 nor 1 or more");
     is(clothedBut("0.2,", "1.5,"), place + " drag: not a number from 0 to 1");
     is(clothedBut("\"substeps\":3", "\"substeps\":9"), place + " substeps: not from 1 to 8");
+    is(clothedBut("\"substeps\":3", "\"substeps\":4294967300"), place + " substeps: not from 1 to 8");
     is(clothedBut("[1,0]", "[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]"), place + " colliders: 17, of at most 16");
     is(clothedBut("[1,0]", "7"), place + " colliders: not an array");
 }
