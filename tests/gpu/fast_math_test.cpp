@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ std::vector<uint32_t> codeOf(VkDriverId driver, VkBool32 keepsSignedZeros) {
     vulkan.driver = driver;
     vulkan.keepsSignedZeros = keepsSignedZeros;
     const Result<ComputeLayout> layout = ComputeLayout::create(vulkan.device, {}, 16, "kernel");
+    EXPECT_TRUE(layout.ok());
     const std::vector<uint32_t> code = joined({kHeader, kEntryPoint});
     EXPECT_TRUE(
         createComputePipeline(vulkan.device, layout->pipelineLayout.get(), {code, code, {}}, {}, "kernel").ok());
@@ -51,7 +53,9 @@ TEST(FastMath, IsForbiddenWhereADriverHasIt) {
 }
 
 TEST(FastMath, KernelsThatForbidItAreValid) {
-    const fs::path file = fs::temp_directory_path() / ("supple_fast_math_" + std::to_string(std::rand()) + ".spv");
+    ASSERT_TRUE(fs::exists(SUPPLE_SPIRV_VAL)) << "spirv-val is not installed (Debian package spirv-tools)";
+    const fs::path file =
+        fs::temp_directory_path() / ("supple_fast_math_" + std::to_string(std::random_device()()) + ".spv");
     uint32_t kernels = 0;
     for (const auto& entry : fs::directory_iterator(SUPPLE_SPIRV_DIR)) {
         const std::string name = entry.path().filename().string();

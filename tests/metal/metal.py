@@ -9,6 +9,7 @@ import argparse
 import concurrent.futures
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -51,7 +52,7 @@ def main():
     parser.add_argument("--dis", default="spirv-dis", help="SPIRV-Tools' disassembler")
     programs = parser.parse_args()
     for name, program in (("spirv-cross", programs.cross), ("spirv-dis", programs.dis)):
-        if not os.access(program, os.X_OK):
+        if not shutil.which(program):
             print(f"left out: {name} is not installed (Debian packages spirv-cross and spirv-tools)")
             return 77
     kernels = sorted(programs.kernels.glob("*.opt.spv"))

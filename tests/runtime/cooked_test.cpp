@@ -6,6 +6,7 @@
 #include "tests/support/sample_assets.h"
 #include "tests/support/shared_assets.h"
 
+#include <cstring>
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
@@ -68,6 +69,13 @@ void sign(std::vector<std::byte>& file) {
 std::string refusalOf(std::span<const std::byte> file) {
     const auto read = readCooked(file, "hero.supple");
     return read ? "" : read.error().message;
+}
+
+/// Why the file of a character is refused when `spoil` has changed it.
+std::string refusalOfSpoiled(const Prepared& prepared, const std::function<void(cage::Character&)>& spoil) {
+    Prepared wrong = prepared;
+    spoil(wrong.character);
+    return refusalOf(writeCooked(wrong, ""));
 }
 
 TEST(Cooked, FilesKeepWhatWasPrepared) {
@@ -177,12 +185,8 @@ TEST(Cooked, FilesKeepJiggles) {
     EXPECT_EQ((*read)->character.jiggles, character->jiggles);
     EXPECT_EQ((*read)->character.weights.jiggles, character->weights.jiggles);
 
-    const auto spoiled = [&](const auto& spoil) {
-        Prepared wrong = *prepared;
-        spoil(wrong.character);
-        return refusalOf(writeCooked(wrong, ""));
-    };
     using cage::Character;
+    const auto spoiled = [&](const auto& spoil) { return refusalOfSpoiled(*prepared, spoil); };
     const std::string place = "hero.supple: ";
     EXPECT_EQ(spoiled([](Character& c) { c.jiggles[0].frequency = -1.0f; }),
               place + "jiggle 0: its numbers are out of range");
@@ -207,12 +211,8 @@ TEST(Cooked, FilesKeepCloths) {
     EXPECT_EQ((*read)->character.cloths, character->cloths);
     EXPECT_EQ((*read)->character.weights.cloths, character->weights.cloths);
 
-    const auto spoiled = [&](const auto& spoil) {
-        Prepared wrong = *prepared;
-        spoil(wrong.character);
-        return refusalOf(writeCooked(wrong, ""));
-    };
     using cage::Character;
+    const auto spoiled = [&](const auto& spoil) { return refusalOfSpoiled(*prepared, spoil); };
     const std::string place = "hero.supple: ";
     EXPECT_EQ(spoiled([](Character& c) { c.cloths[0].substeps = 0; }), place + "cloth 0: its numbers are out of range");
     EXPECT_EQ(spoiled([](Character& c) { c.cloths[0].bend = std::numeric_limits<float>::quiet_NaN(); }),
@@ -236,9 +236,7 @@ TEST(Cooked, FilesKeepPoseDrivers) {
     ASSERT_EQ(character->drivers.size(), 2u);
 
     const auto spoiled = [&](const auto& spoil) {
-        Prepared wrong = *prepared;
-        spoil(wrong.character.drivers[1]);
-        return refusalOf(writeCooked(wrong, ""));
+        return refusalOfSpoiled(*prepared, [&](cage::Character& c) { spoil(c.drivers[1]); });
     };
     using cage::PoseDriver;
     const std::string place = "hero.supple: driver 1: ";

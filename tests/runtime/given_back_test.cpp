@@ -5,6 +5,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/test_view.h"
+#include "tests/support/worst.h"
 #include "tools/common/procedural.h"
 
 #include <algorithm>
@@ -86,10 +87,7 @@ public:
             return;
         }
         const glm::vec3 eye(0, 0.5f, 9), target = eye + glm::vec3(0, 0, seen ? -1 : 1);
-        const glm::mat4 both =
-            glm::perspectiveRH_ZO(1.2f, 1.0f, 0.1f, 100.0f) * glm::lookAt(eye, target, glm::vec3(0, 1, 0));
-        std::memcpy(view_->camera.viewProjection, &both, sizeof both);
-        view_->look(eye);
+        view_->look(eye, target, glm::perspectiveRH_ZO(1.2f, 1.0f, 0.1f, 100.0f));
     }
     [[nodiscard]] SuppleMemoryUse memory() const {
         SuppleMemoryUse use{};
@@ -117,18 +115,18 @@ constexpr size_t kVertex = 24 / sizeof(uint32_t), kPosition = 3, kCorner = kVert
 
 /// What is drawn has risen by so much since the frame before, and has moved by nothing else.
 void expectMotion(const DrawnPatches& drawn, float rise) {
-    float worst = 0.0f;
+    double worst = 0.0;
     for (const auto& [key, words] : drawn) {
         ASSERT_EQ(words.size() % kCorner, 0u);
         for (size_t c = 0; c < words.size(); c += kCorner) {
             glm::vec3 now, before;
             std::memcpy(&now, &words[c], sizeof now);
             std::memcpy(&before, &words[c + kVertex], sizeof before);
-            worst = std::max(worst, glm::length(now - before - glm::vec3(0.0f, rise, 0.0f)));
+            raise(worst, static_cast<double>(glm::length(now - before - glm::vec3(0.0f, rise, 0.0f))));
         }
     }
     EXPECT_FALSE(drawn.empty());
-    EXPECT_LE(worst, rise == 0.0f ? 0.0f : 1e-5f);
+    EXPECT_LE(worst, rise == 0.0f ? 0.0 : 1e-5);
 }
 
 /// Bytes of what goes back, beside scratch memory.

@@ -410,15 +410,7 @@ TEST_F(HostSprings, AreRecorded) {
                 set.frame(0.03 * f);
             }
         };
-        swingAbout(0, begins);
-        Recorded recorded;
-        own.beginFrame();
-        ASSERT_EQ(recorded.start(own.handle()), SUPPLE_OK);
-        swingAbout(begins, begins + 12);
-        own.beginFrame();
-        own.beginFrame();
-        SCOPED_TRACE(begins);
-        expectReplayed(own.handle(), recorded, 21);
+        expectReplayedFrom(begins, begins + 12, own, swingAbout, 21);
     }
 }
 

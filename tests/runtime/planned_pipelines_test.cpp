@@ -2,6 +2,7 @@
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/soft_assets.h"
 #include "tools/bench/pipeline_watch.h"
 
 #include <algorithm>
@@ -22,7 +23,6 @@ struct PlannedCase {
     const std::string* file = &kWren;
 };
 const std::string kDrivenArm = std::string(SUPPLE_TEST_DATA) + "/drivers/arm.glb";
-const std::string kCaped = std::string(SUPPLE_TEST_DATA) + "/cloth/caped.glb";
 constexpr uint32_t kStreams = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_MOTION;
 /// The last part of ten has another scheme than the others.
 constexpr SuppleScheme kPartSchemes[10] = {
@@ -46,7 +46,7 @@ const PlannedCase kPlannedCases[] = {
      {.flags = SUPPLE_GROUP_SOFT, .scheme = SUPPLE_SCHEME_CAGE, .poseSource = SUPPLE_POSES_PLAYBACK},
      false,
      0,
-     &kCaped},
+     &kCapedFile},
     {"cages", {.scheme = SUPPLE_SCHEME_PM, .rate = 2, .poseSource = SUPPLE_POSES_CAGE_BUFFER}},
     {"cage", {.scheme = SUPPLE_SCHEME_CAGE}},
     {"levels",

@@ -310,7 +310,7 @@ public:
         EXPECT_EQ(differ, 0u) << what;
         EXPECT_EQ(otherTriangle, 0u) << what;
         EXPECT_EQ(otherSide, 0u) << what;
-        EXPECT_LT(farthest, 2e-5) << what; // rays are 10 units long
+        EXPECT_LT(farthest, 2e-5) << what; // rays begin 5 units from what they aim at
         std::printf("%-22s %zu triangles, %u of %u rays hit, farthest %.1e\n", what, truth.size(), hits, Caster::kRays,
                     farthest);
         return hits;
@@ -489,7 +489,7 @@ void growAndAskAgain(RayCrowd& crowd) {
     EXPECT_EQ(after.maxVertex, before.maxVertex);
 }
 
-/// The ranges and the rate are what the group is created with.
+/// Rays meet the draw ranges of every surface, in the same order.
 void expectRanges(const RayCrowd& crowd) {
     SuppleGroupInfo info{};
     info.structSize = sizeof(info);

@@ -5,7 +5,6 @@
 #include "tests/support/test_view.h"
 #include "tests/support/worst.h"
 
-#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
 
@@ -61,10 +60,10 @@ TEST_F(SoftEvents, HiddenInstancesCatchUpOrSwingOn) {
         }
         if (step == 39) {
             EXPECT_FALSE(both.same(1)) << "9 were due";
-            EXPECT_GT(cagesApart(both.other.shown(1), stiff.shown(1)), 1e-3) << "it swings on, and is not at rest";
+            EXPECT_GT(farthestApart(both.other.shown(1), stiff.shown(1)), 1e-3) << "it swings on, and is not at rest";
         }
     }
-    EXPECT_LT(cagesApart(both.other.shown(1), both.plain.shown(1)), 0.05) << "it comes together again";
+    EXPECT_LT(farthestApart(both.other.shown(1), both.plain.shown(1)), 0.05) << "it comes together again";
 }
 
 TEST_F(SoftEvents, SettleWhenTheirAssetIsLoadedAnew) {
@@ -84,7 +83,7 @@ TEST_F(SoftEvents, SettleWhenTheirAssetIsLoadedAnew) {
         }
         soft.frame(step / 60.0);
         stiff.frame(step / 60.0);
-        const double apart = cagesApart(soft.shown(0), stiff.shown(0));
+        const double apart = farthestApart(soft.shown(0), stiff.shown(0));
         if (step >= 10 && step <= 20) {
             EXPECT_EQ(apart, 0.0) << step << ": nothing is painted, then all is at rest";
         }
@@ -115,25 +114,46 @@ TEST_F(SoftEvents, TeleportsKeepHowTheyMove) {
             for (size_t k = 0; k < here.size(); k += 4) {
                 here[k] -= step >= 20 ? 64.0f : 0.0f;
             }
-            return cagesApart(here, both.plain.shown(i));
+            return farthestApart(here, both.plain.shown(i));
         };
         raise(told, off(0));
         raise(untold, off(1));
-        raise(swings, step >= 20 ? cagesApart(both.plain.shown(0), stiff.shown(0)) : 0.0);
+        raise(swings, step >= 20 ? farthestApart(both.plain.shown(0), stiff.shown(0)) : 0.0);
     }
     EXPECT_GT(swings, 0.02) << "or nobody could tell";
     EXPECT_LT(told, 0.3 * swings) << "the goals' own change of speed in a step is not seen";
     EXPECT_GT(untold, 0.03);
 }
 
-/// How far vertices are off where they would be without jiggle, of instance `i` which stands at `place`.
-double offAt(const SoftGroup& soft, uint32_t i, const SoftGroup& stiff, const glm::vec3& place) {
-    Floats here = soft.shown(i);
-    for (size_t k = 0; k < here.size(); ++k) {
-        here[k] -= k % 4 < 3 ? place[static_cast<int>(k % 4)] : 0.0f;
+/// Two instances that play the same. The host moves the first.
+struct RunnerBesideOneWhoStands {
+    RunnerBesideOneWhoStands(CrowdContext& context, SuppleAsset asset)
+        : runs(context, playedGroup(asset, 1, kSoft)), stands(context, playedGroup(asset, 1, kSoft)) {
+        for (const SoftGroup* const group : {&runs, &stands}) {
+            if (group->crowd.valid()) {
+                group->play(0, 0, 0.0);
+            }
+        }
     }
-    return cagesApart(here, stiff.shown(i));
-}
+    [[nodiscard]] bool valid() const { return runs.crowd.valid() && stands.crowd.valid(); }
+    /// A frame; how far the runner's vertices are off those of the other, but for its place.
+    double offAt(double time, const glm::vec3& place, bool teleports) {
+        EXPECT_EQ(suppleSetTime(runs.handle(), runs.crowd.group(), time), SUPPLE_OK);
+        runs.place(0, glm::translate(glm::mat4(1.0f), place));
+        if (teleports) {
+            runs.crowd.teleport(runs.instances[0]);
+        }
+        runs.frame(time);
+        stands.frame(time);
+        Floats here = runs.shown(0);
+        for (size_t k = 0; k < here.size(); ++k) {
+            here[k] -= k % 4 < 3 ? place[static_cast<int>(k % 4)] : 0.0f;
+        }
+        return farthestApart(here, stands.shown(0));
+    }
+
+    SoftGroup runs, stands;
+};
 
 /// Frames of a rate, which begin some time behind a step.
 struct Frames {
@@ -148,23 +168,15 @@ TEST_F(SoftEvents, WhoRunsGoesOnAfterATeleport) {
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     const SuppleAsset asset = own.createAsset(jigglingWren());
     for (const Frames& frames : kFrames) {
-        SoftGroup soft(own, playedGroup(asset, 1, kSoft)), stands(own, playedGroup(asset, 1, kSoft));
-        ASSERT_TRUE(soft.crowd.valid() && stands.crowd.valid());
-        soft.play(0, 0, 0.0);
-        stands.play(0, 0, 0.0);
+        RunnerBesideOneWhoStands both(own, asset);
+        ASSERT_TRUE(both.valid());
         const auto jump = static_cast<uint32_t>(frames.rate * 0.6);
         double most = 0.0;
         for (uint32_t f = 0; f < 2 * jump; ++f) {
             const double time = frames.time(f);
             const glm::vec3 place(kRun * static_cast<float>(time), 0.0f, f >= jump ? 32.0f : 0.0f);
-            EXPECT_EQ(suppleSetTime(own.handle(), soft.crowd.group(), time), SUPPLE_OK);
-            soft.place(0, glm::translate(glm::mat4(1.0f), place));
-            if (f == jump) {
-                soft.crowd.teleport(soft.instances[0]);
-            }
-            soft.frame(time);
-            stands.frame(time);
-            raise(most, f >= jump ? offAt(soft, 0, stands, place) : 0.0);
+            const double off = both.offAt(time, place, f == jump);
+            raise(most, f >= jump ? off : 0.0);
         }
         EXPECT_LT(most, 0.005) << frames.rate << " frames a second from " << frames.begin;
     }
@@ -175,20 +187,14 @@ TEST_F(SoftEvents, WhoRunsFromTheFirstFrameIsNotStruck) {
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
     const SuppleAsset asset = own.createAsset(jigglingWren());
     for (const Frames& frames : kFrames) {
-        SoftGroup soft(own, playedGroup(asset, 1, kSoft)), stands(own, playedGroup(asset, 1, kSoft));
-        ASSERT_TRUE(soft.crowd.valid() && stands.crowd.valid());
-        soft.play(0, 0, 0.0);
-        stands.play(0, 0, 0.0);
+        RunnerBesideOneWhoStands both(own, asset);
+        ASSERT_TRUE(both.valid());
         double most = 0.0;
         for (uint32_t f = 0; f < static_cast<uint32_t>(frames.rate); ++f) {
             const double gap = f > frames.rate / 2 ? 0.3 : 0.0; // and again when frames have been left out
             const double time = frames.time(f) + gap;
             const glm::vec3 place(kRun * static_cast<float>(time), 0.0f, 0.0f);
-            EXPECT_EQ(suppleSetTime(own.handle(), soft.crowd.group(), time), SUPPLE_OK);
-            soft.place(0, glm::translate(glm::mat4(1.0f), place));
-            soft.frame(time);
-            stands.frame(time);
-            raise(most, offAt(soft, 0, stands, place));
+            raise(most, both.offAt(time, place, false));
         }
         EXPECT_LT(most, 0.005) << frames.rate << " frames a second from " << frames.begin;
     }
@@ -207,7 +213,7 @@ TEST_F(SoftEvents, LongGapsGoOnWithoutASnap) {
     const auto at = [&](double time) {
         soft.frame(time);
         stiff.frame(time);
-        return cagesApart(soft.shown(0), stiff.shown(0));
+        return farthestApart(soft.shown(0), stiff.shown(0));
     };
     for (uint32_t step = 0; step < 30; ++step) {
         raise(before, at(step / 60.0));
@@ -248,7 +254,7 @@ TEST_F(SoftEvents, ASlotThatIsUsedAgainBeginsAtRest) {
         }
         soft.frame(step / 60.0);
         stiff.frame(step / 60.0);
-        const double apart = cagesApart(soft.shown(0), stiff.shown(0));
+        const double apart = farthestApart(soft.shown(0), stiff.shown(0));
         EXPECT_EQ(apart == 0.0, step < 4 || (step >= 20 && step < 24)) << step;
     }
 }
@@ -262,10 +268,7 @@ struct WatchedGroup {
     }
     void frame(double time, bool looksAway) {
         const glm::vec3 eye(0.0f, 1.0f, 5.0f), to(0.0f, 1.0f, looksAway ? 10.0f : 0.0f);
-        const glm::mat4 seen =
-            glm::perspectiveRH_ZO(0.9f, 1.0f, 0.1f, 200.0f) * glm::lookAt(eye, to, glm::vec3(0, 1, 0));
-        std::memcpy(view.camera.viewProjection, &seen, sizeof seen);
-        view.look(eye);
+        view.look(eye, to, glm::perspectiveRH_ZO(0.9f, 1.0f, 0.1f, 200.0f));
         group->frame(time);
     }
     /// Of the last frame.
@@ -307,7 +310,7 @@ TEST_F(SoftEvents, WhoIsOutOfSightHasTheSameBits) {
         for (uint32_t i = 0; i < 2; ++i) {
             EXPECT_EQ(seen.group->shown(i), plain.shown(i)) << step << ", " << i;
         }
-        raise(swings, looksAway ? 0.0 : cagesApart(seen.group->shown(0), stiff.group->shown(0)));
+        raise(swings, looksAway ? 0.0 : farthestApart(seen.group->shown(0), stiff.group->shown(0)));
     }
     EXPECT_GT(swings, 0.01);
 }
@@ -361,15 +364,7 @@ TEST_F(SoftEvents, AreRecorded) {
                 own.run(stage.crowd.group());
             }
         };
-        hop(0, begins);
-        Recorded recorded;
-        own.beginFrame();
-        ASSERT_EQ(recorded.start(own.handle()), SUPPLE_OK);
-        hop(begins, begins + 16);
-        own.beginFrame();
-        own.beginFrame();
-        SCOPED_TRACE(begins);
-        expectReplayed(own.handle(), recorded, 21);
+        expectReplayedFrom(begins, begins + 16, own, hop, 21);
     }
 }
 
@@ -389,10 +384,10 @@ TEST_F(SoftEvents, AbsurdPlacesLeaveThemAgain) {
             EXPECT_FALSE(both.same(0)) << "it is somewhere absurd";
         }
         if (step > 8) {
-            EXPECT_LT(cagesApart(both.other.shown(0), both.plain.shown(0)), 1.5) << step;
+            EXPECT_LT(farthestApart(both.other.shown(0), both.plain.shown(0)), 1.5) << step;
         }
     }
-    EXPECT_LT(cagesApart(both.other.shown(0), both.plain.shown(0)), 0.06);
+    EXPECT_LT(farthestApart(both.other.shown(0), both.plain.shown(0)), 0.06);
 }
 
 } // namespace

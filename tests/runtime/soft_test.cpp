@@ -5,6 +5,7 @@
 #include "tests/support/limited_device.h"
 #include "tests/support/played_soft.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/sixths.h"
 #include "tests/support/soft_groups.h"
 #include "tests/support/swinging_jiggles.h"
 #include "tests/support/worst.h"
@@ -94,7 +95,7 @@ double playedBesideTheCpu(SoftGroup& soft, SoftGroup& stiff) {
         stiff.frame(time);
         for (uint32_t i = 0; i < count; ++i) {
             EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
-            const double apart = cagesApart(soft.shown(i), stiff.shown(i));
+            const double apart = farthestApart(soft.shown(i), stiff.shown(i));
             EXPECT_TRUE(f > 0 || apart == 0.0 || !soft.character().cloths.empty()) << "at rest in the pose";
             EXPECT_TRUE(f < 4 || apart > 0.0) << "in the second step goals have a speed to differ from";
             moved = std::max(moved, apart);
@@ -160,92 +161,40 @@ TEST_F(Soft, TheirGoalsHaveWhatDriversSet) {
             plain.frame(time);
             for (uint32_t i = 0; i < 2; ++i) {
                 EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
-                raise(apart, cagesApart(soft.shown(i), plain.shown(i)));
+                raise(apart, farthestApart(soft.shown(i), plain.shown(i)));
             }
         }
         EXPECT_GT(apart, 1e-3) << "drivers move something";
     }
 }
 
-/// Frames of a rate that come to every sixth of a second.
-std::vector<double> softFrames(uint32_t rate, uint32_t sixths) {
-    std::vector<double> times;
-    for (uint32_t k = 0; k <= rate * sixths / 6; ++k) {
-        times.push_back(k * 6 % rate == 0 ? k * 6 / rate / 6.0 : static_cast<double>(k) / rate);
+/// What four instances show at each sixth of a second, in frames at these times.
+ShownAtSixths shownInFrames(CrowdContext& own, SuppleAsset asset, uint32_t flags, std::span<const double> times) {
+    SoftGroup stage(own, playedGroup(asset, 4, flags | SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS));
+    if (!stage.crowd.valid()) {
+        ADD_FAILURE() << "no group";
+        return {};
     }
-    return times;
-}
-
-/// What a host does at some sixths of a second, whatever the frame rate.
-void callAt(SoftGroup& stage, uint32_t sixth, double time) {
-    if (sixth == 2) { // she goes over to running
-        SupplePlaybackLayer layer = PlayedGroup::loops(2 % stage.clipCount(), 0.1);
-        layer.startTime = time;
-        SupplePlaybackDesc desc{};
-        desc.transition = 0.3;
-        stage.play(0, {&layer, 1}, desc);
-    }
-    if (sixth == 3) {
-        SuppleModifier turn{};
-        turn.kind = SUPPLE_MODIFIER_ADD;
-        turn.joint = stage.joint("head");
-        turn.weight = 1.0f;
-        turn.rotation[1] = 0.5f;
-        turn.rotation[3] = 0.8660254f;
-        stage.modify(1, turn);
-        if (!stage.character().morphs.targets.empty()) {
-            stage.setMorphWeights(3, 1.0f); // of targets that move what is painted
-        }
-    }
-    if (sixth == 5) {
-        stage.setMask(1, 0.25f);
-    }
-    if (sixth == 4) {
-        stage.place(2, glm::rotate(glm::mat4(1.0f), 2.0f, glm::vec3(0.0f, 0.0f, 1.0f)));
-        EXPECT_EQ(suppleTeleport(stage.handle(), stage.instances[2]), SUPPLE_OK);
-    }
-}
-
-/// What instances showed at each sixth of a second, in frames at these times.
-std::vector<std::vector<Floats>> shownAtSixths(CrowdContext& own, SuppleAsset asset, uint32_t flags,
-                                               std::span<const double> times) {
-    constexpr uint32_t kCount = 4;
-    SoftGroup stage(own, playedGroup(asset, kCount, flags | SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS));
-    for (uint32_t i = 0; stage.crowd.valid() && i < kCount; ++i) {
-        stage.play(i, (1 + i % 2) % stage.clipCount(), 0.1 * i, i == 3 ? SUPPLE_ROOT_MOTION_GROUND : 0,
-                   i == 3 ? SUPPLE_PLAYBACK_TRAVEL : 0);
-    }
-    if (stage.crowd.valid()) { // two clips, one of them through a mask
-        SupplePlaybackLayer layers[] = {PlayedGroup::loops(1, 0.2), PlayedGroup::loops(4 % stage.clipCount(), 0.2)};
-        stage.setMask(1, 1.0f);
-        layers[1].mask = 1;
-        stage.play(2, layers);
-    }
-    std::vector<std::vector<Floats>> shown;
-    for (const double time : times) {
-        const auto sixth = static_cast<uint32_t>(std::lround(time * 6.0));
-        const bool meets = time == sixth / 6.0;
-        if (meets) {
-            EXPECT_EQ(suppleSetTime(stage.handle(), stage.crowd.group(), time), SUPPLE_OK);
-            callAt(stage, sixth, time);
-        }
-        stage.frame(time);
-        for (uint32_t i = 0; meets && i < kCount; ++i) {
-            shown.resize(sixth + 1);
-            shown[sixth].push_back(stage.shown(i));
-        }
-    }
-    return shown;
+    playFour(stage);
+    return shownAtSixths(
+        stage, times,
+        [&](uint32_t sixth, double time) {
+            callAt(stage, 2, sixth, time);
+            if (sixth == 3 && !stage.character().morphs.targets.empty()) {
+                stage.setMorphWeights(3, 1.0f); // of targets that move what is painted
+            }
+        },
+        [&](double time) { stage.frame(time); });
 }
 
 /// At the end each instance shows something else than it would without one of the group's flags.
 void expectOthersWithout(uint32_t flag, CrowdContext& own, SuppleAsset asset, uint32_t flags,
-                         const std::vector<std::vector<Floats>>& shown) {
+                         const ShownAtSixths& shown) {
     const auto sixths = static_cast<uint32_t>(shown.size() - 1);
-    const std::vector<std::vector<Floats>> without = shownAtSixths(own, asset, flags & ~flag, softFrames(30, sixths));
+    const ShownAtSixths without = shownInFrames(own, asset, flags & ~flag, framesOf(30, sixths));
     ASSERT_EQ(without.size(), shown.size());
     for (size_t i = 0; i < shown.back().size(); ++i) {
-        EXPECT_GT(cagesApart(shown.back()[i], without.back()[i]), 1e-3) << i;
+        EXPECT_GT(farthestApart(shown.back()[i], without.back()[i]), 1e-3) << i;
     }
 }
 
@@ -253,27 +202,17 @@ TEST_F(Soft, DoNotDependOnTheFrameRate) {
     const ValidationGuard guard;
     constexpr uint32_t kSixths = 6;
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
-    std::vector<double> irregular;
-    Noise noise(11);
-    for (uint32_t k = 0; k < 30; ++k) {
-        irregular.push_back((0.5 + 0.5 * static_cast<double>(noise())) * kSixths / 6.0);
-    }
-    for (uint32_t k = 0; k <= 2 * kSixths; ++k) { // never more than 8 steps apart
-        irregular.push_back(k % 2 == 0 ? k / 2 / 6.0 : k / 12.0);
-    }
-    std::sort(irregular.begin(), irregular.end());
-    irregular.erase(std::unique(irregular.begin(), irregular.end()), irregular.end());
     // Beside springs, what hangs on joints that swing jiggles by how they swing.
     const SuppleAsset assets[] = {own.createAsset(jigglingWren()), swingingAndJigglingWren(own), own.asset(kCapedFile)};
     for (const SuppleAsset& asset : assets) {
         const bool swings = &asset == &assets[1];
         const uint32_t flags = kSoft | (swings ? SUPPLE_GROUP_SPRINGS : 0);
-        const std::vector<std::vector<Floats>> first = shownAtSixths(own, asset, flags, softFrames(60, kSixths));
+        const ShownAtSixths first = shownInFrames(own, asset, flags, framesOf(60, kSixths));
         ASSERT_EQ(first.size(), kSixths + 1);
         for (const uint32_t rate : {24u, 30u, 90u, 144u}) {
-            EXPECT_EQ(shownAtSixths(own, asset, flags, softFrames(rate, kSixths)), first) << rate;
+            EXPECT_EQ(shownInFrames(own, asset, flags, framesOf(rate, kSixths)), first) << rate;
         }
-        EXPECT_EQ(shownAtSixths(own, asset, flags, irregular), first);
+        EXPECT_EQ(shownInFrames(own, asset, flags, irregularFrames(30, kSixths)), first);
         expectOthersWithout(kSoft, own, asset, flags, first);
         if (swings) {
             expectOthersWithout(SUPPLE_GROUP_SPRINGS, own, asset, flags, first);
@@ -285,12 +224,12 @@ TEST_F(Soft, HaveTheSameWordsInBothMappingsAndSharedDispatches) {
     const ValidationGuard guard;
     CrowdContext shared(*testDevice(), SUPPLE_MAPPING_WIDE, 2, SUPPLE_CONTEXT_SHARED_DISPATCHES);
     CrowdContext* const contexts[] = {&context(SUPPLE_MAPPING_NARROW), &context(SUPPLE_MAPPING_WIDE), &shared};
-    const std::vector<double> times = softFrames(24, 5);
-    std::vector<std::vector<Floats>> firstWren, firstCaped;
+    const std::vector<double> times = framesOf(24, 5);
+    ShownAtSixths firstWren, firstCaped;
     for (CrowdContext* const own : contexts) {
         const SuppleAsset wren = swingingAndJigglingWren(*own);
-        const auto shown = shownAtSixths(*own, wren, kSoft | SUPPLE_GROUP_SPRINGS, times);
-        const auto caped = shownAtSixths(*own, own->asset(kCapedFile), kSoft, times);
+        const auto shown = shownInFrames(*own, wren, kSoft | SUPPLE_GROUP_SPRINGS, times);
+        const auto caped = shownInFrames(*own, own->asset(kCapedFile), kSoft, times);
         firstWren = firstWren.empty() ? shown : firstWren;
         firstCaped = firstCaped.empty() ? caped : firstCaped;
         EXPECT_EQ(shown, firstWren);

@@ -9,6 +9,7 @@
 #include "tests/support/played_springs.h"
 #include "tests/support/recordings.h"
 #include "tests/support/rigged_tube.h"
+#include "tests/support/sixths.h"
 #include "tests/support/worst.h"
 #include "tests/support/wrapped_vulkan.h"
 #include "tools/gltf/writer.h"
@@ -236,69 +237,13 @@ TEST_F(Springs, SwingWithTheWordsOfTheCpu) {
     }
 }
 
-/// Frames of a rate that come to every sixth of a second.
-std::vector<double> framesOf(uint32_t rate, uint32_t sixths) {
-    std::vector<double> times;
-    for (uint32_t k = 0; k <= rate * sixths / 6; ++k) {
-        times.push_back(k * 6 % rate == 0 ? k * 6 / rate / 6.0 : static_cast<double>(k) / rate);
-    }
-    return times;
-}
-
-/// What a host does at some sixths of a second, whatever the frame rate.
-void callAt(SwingingGroup& stage, uint32_t sixth, double time) {
-    if (sixth == 3) { // she goes over to running
-        SupplePlaybackLayer layer = PlayedGroup::loops(2, 0.1);
-        layer.startTime = time;
-        SupplePlaybackDesc desc{};
-        desc.transition = 0.3;
-        stage.play(0, {&layer, 1}, desc);
-    }
-    if (sixth == 4) {
-        SuppleModifier turn{};
-        turn.kind = SUPPLE_MODIFIER_ADD;
-        turn.joint = stage.joint("head");
-        turn.weight = 1.0f;
-        turn.rotation[1] = 0.5f;
-        turn.rotation[3] = 0.8660254f;
-        stage.modify(1, turn);
-    }
-    if (sixth == 6) {
-        stage.setMask(1, 0.25f);
-    }
-    if (sixth == 5) {
-        stage.move(2, glm::rotate(glm::mat4(1.0f), 2.0f, glm::vec3(0.0f, 0.0f, 1.0f)));
-        EXPECT_EQ(suppleTeleport(stage.handle(), stage.instances[2]), SUPPLE_OK);
-    }
-}
-
-/// What instances showed at each sixth of a second, in frames at these times.
-std::vector<std::vector<Pose>> swungAtSixths(CrowdContext& own, SuppleAsset asset, uint32_t flags,
-                                             std::span<const double> times) {
-    constexpr uint32_t kCount = 4;
-    SwingingGroup stage(own, playedGroup(asset, kCount, flags | SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS));
-    for (uint32_t i = 0; i < kCount; ++i) {
-        stage.play(i, 1 + i % 2, 0.1 * i, i == 3 ? SUPPLE_ROOT_MOTION_GROUND : 0, i == 3 ? SUPPLE_PLAYBACK_TRAVEL : 0);
-    }
-    SupplePlaybackLayer layers[] = {PlayedGroup::loops(1, 0.2), PlayedGroup::loops(4, 0.2)};
-    stage.setMask(1, 1.0f);
-    layers[1].mask = 1;
-    stage.play(2, layers);
-    std::vector<std::vector<Pose>> shown;
-    for (const double time : times) {
-        const auto sixth = static_cast<uint32_t>(std::lround(time * 6.0));
-        const bool meets = time == sixth / 6.0;
-        if (meets) {
-            EXPECT_EQ(suppleSetTime(stage.handle(), stage.crowd.group(), time), SUPPLE_OK);
-            callAt(stage, sixth, time);
-        }
-        stage.swingOnly(time);
-        for (uint32_t i = 0; meets && i < kCount; ++i) {
-            shown.resize(sixth + 1);
-            shown[sixth].push_back(stage.shown(i));
-        }
-    }
-    return shown;
+/// What four instances show at each sixth of a second, in frames at these times.
+ShownAtSixths swungInFrames(CrowdContext& own, SuppleAsset asset, uint32_t flags, std::span<const double> times) {
+    SwingingGroup stage(own, playedGroup(asset, 4, flags | SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS));
+    playFour(stage);
+    return shownAtSixths(
+        stage, times, [&](uint32_t sixth, double time) { callAt(stage, 3, sixth, time); },
+        [&](double time) { stage.swingOnly(time); });
 }
 
 TEST_F(Springs, DoNotDependOnTheFrameRate) {
@@ -310,24 +255,14 @@ TEST_F(Springs, DoNotDependOnTheFrameRate) {
     for (const uint32_t rate : {24u, 30u, 90u, 144u}) {
         rates.push_back(framesOf(rate, kSixths));
     }
-    std::vector<double> irregular = framesOf(6, kSixths);
-    Noise noise(11);
-    for (uint32_t k = 0; k < 40; ++k) {
-        irregular.push_back((0.5 + 0.5 * static_cast<double>(noise())) * kSixths / 6.0);
-    }
-    for (uint32_t k = 0; k < 2 * kSixths; ++k) { // never more than 8 steps apart
-        irregular.push_back(k / 12.0);
-    }
-    std::sort(irregular.begin(), irregular.end());
-    irregular.erase(std::unique(irregular.begin(), irregular.end()), irregular.end());
-    rates.push_back(irregular);
+    rates.push_back(irregularFrames(40, kSixths));
 
-    const std::vector<std::vector<Pose>> first = swungAtSixths(own, asset, kSprings, framesOf(60, kSixths));
+    const ShownAtSixths first = swungInFrames(own, asset, kSprings, framesOf(60, kSixths));
     ASSERT_EQ(first.size(), kSixths + 1);
     for (const std::vector<double>& times : rates) {
-        EXPECT_EQ(swungAtSixths(own, asset, kSprings, times), first) << times.size() << " frames";
+        EXPECT_EQ(swungInFrames(own, asset, kSprings, times), first) << times.size() << " frames";
     }
-    const std::vector<std::vector<Pose>> still = swungAtSixths(own, asset, 0, framesOf(24, kSixths));
+    const ShownAtSixths still = swungInFrames(own, asset, 0, framesOf(24, kSixths));
     ASSERT_EQ(still.size(), first.size());
     for (size_t i = 0; i < first.back().size(); ++i) {
         EXPECT_GT(farthestApart(first.back()[i], still.back()[i]), 0.02) << i << " swings";
@@ -620,15 +555,8 @@ TEST_F(Springs, AreRecorded) {
         for (uint32_t i = 0; i < 3; ++i) {
             stage.play(i, 1, 0.1 * i);
         }
-        swingAbout(own, stage, 0, begins);
-        Recorded recorded;
-        own.beginFrame();
-        ASSERT_EQ(recorded.start(own.handle()), SUPPLE_OK);
-        swingAbout(own, stage, begins, begins + 16);
-        own.beginFrame();
-        own.beginFrame();
-        SCOPED_TRACE(begins);
-        expectReplayed(own.handle(), recorded, 21);
+        const auto run = [&](uint32_t first, uint32_t last) { swingAbout(own, stage, first, last); };
+        expectReplayedFrom(begins, begins + 16, own, run, 21);
     }
 }
 

@@ -141,11 +141,7 @@ TEST(Centers, BesideTheOtherSkinningsOnRigs) {
             bend, test::skinAboutCenters(rest, test::centersOf(centers), character.weights, bend.palette()));
         std::printf("%-18s %-20s", c.file, c.name);
         for (const auto& [own, wanted] : {std::pair(linear, c.linear), {dual, c.dual}, {about, c.centers}}) {
-            std::printf("  %3.0f (%.2f %.2f) %u", own.volume, own.thickness[0], own.thickness[1], own.turnedOver);
-            EXPECT_NEAR(own.volume, wanted.volume, 1.0) << c.file << ", " << c.name;
-            EXPECT_NEAR(own.thickness[0], wanted.thickness[0], 0.025) << c.file << ", " << c.name;
-            EXPECT_NEAR(own.thickness[1], wanted.thickness[1], 0.025) << c.file << ", " << c.name;
-            EXPECT_NEAR(own.turnedOver, wanted.turnedOver, 2.0) << c.file << ", " << c.name;
+            test::expectMeasure(c, own, wanted, {1.0, 0.025, 2.0});
         }
         std::printf("\n");
     }

@@ -15,6 +15,7 @@
 #include "tests/support/rig_bends.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/shared_assets.h"
+#include "tests/support/worst.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -82,7 +83,7 @@ std::vector<glm::vec3> likeTheDevice(const Character& character, const Skinning&
 double mostApart(std::span<const glm::vec3> a, std::span<const glm::dvec3> b, size_t but = 0) {
     std::vector<double> distances;
     for (size_t v = 0; v < a.size(); ++v) {
-        distances.push_back(glm::distance(glm::dvec3(a[v]), b[v]));
+        test::raise(distances.emplace_back(0.0), glm::distance(glm::dvec3(a[v]), b[v]));
     }
     std::sort(distances.begin(), distances.end());
     return distances[distances.size() - 1 - but] / test::extent(std::vector<glm::dvec3>(b.begin(), b.end()));
@@ -117,16 +118,16 @@ TEST(DeltaMush, AgreesWithTheFormulas) {
         for (size_t v = 0; v < own.size(); ++v) {
             ASSERT_EQ(own[v].smoothed, wanted[v].smoothed) << v;
             ASSERT_EQ(own[v].heaviest, wanted[v].heaviest) << v;
-            places = std::max(places, own[v].smoothed ? glm::distance(own[v].place, wanted[v].place) : 0.0);
+            test::raise(places, own[v].smoothed ? glm::distance(own[v].place, wanted[v].place) : 0.0);
             ASSERT_EQ(own[v].joints.size(), wanted[v].joints.size()) << v;
             for (const auto& [joint, moments] : own[v].joints) {
                 ASSERT_EQ(wanted[v].joints.count(joint), 1u) << v;
                 const test::MushMoments& other = wanted[v].joints.at(joint);
-                weights = std::max(weights, std::abs(moments.weight - other.weight));
-                offsets = std::max(offsets, own[v].smoothed ? glm::length(moments.offset - other.offset) : 0.0);
+                test::raise(weights, std::abs(moments.weight - other.weight));
+                test::raise(offsets, own[v].smoothed ? glm::length(moments.offset - other.offset) : 0.0);
                 for (int c = 0; c < 3 && own[v].smoothed; ++c) {
-                    spreads = std::max(spreads, glm::length(moments.spread[c] - other.spread[c]));
-                    size = std::max(size, glm::length(other.spread[c]));
+                    test::raise(spreads, glm::length(moments.spread[c] - other.spread[c]));
+                    test::raise(size, glm::length(other.spread[c]));
                 }
             }
         }
@@ -203,7 +204,7 @@ TEST(DeltaMush, MaskedVerticesAreLinear) {
                 double masked = 0.0, smoothed = 0.0;
                 for (size_t v = 0; v < own.size(); ++v) {
                     double& most = character.weights.mushMask[v] == 0.0f ? masked : smoothed;
-                    most = std::max(most, glm::distance(glm::dvec3(own[v]), linear[v]) / test::extent(linear));
+                    test::raise(most, glm::distance(glm::dvec3(own[v]), linear[v]) / test::extent(linear));
                 }
                 EXPECT_LT(masked, 5e-7) << character.name;
                 EXPECT_EQ(smoothed > 1e-3, half) << character.name << ": the others are smoothed";
@@ -293,11 +294,7 @@ TEST(DeltaMush, BesideLinearSkinningOnRigs) {
         for (const bool light : {false, true}) {
             const test::LimbMeasure own = test::measured(bend, test::skinByMush(rest, vertices, bend.palette(), light));
             const test::LimbMeasure& wanted = light ? c.lightMush : c.mush;
-            std::printf("  %3.0f (%.2f %.2f) %u", own.volume, own.thickness[0], own.thickness[1], own.turnedOver);
-            EXPECT_NEAR(own.volume, wanted.volume, 1.5) << c.file << ", " << c.name;
-            EXPECT_NEAR(own.thickness[0], wanted.thickness[0], 0.04) << c.file << ", " << c.name;
-            EXPECT_NEAR(own.thickness[1], wanted.thickness[1], 0.04) << c.file << ", " << c.name;
-            EXPECT_NEAR(own.turnedOver, wanted.turnedOver, 3.0) << c.file << ", " << c.name;
+            test::expectMeasure(c, own, wanted, {1.5, 0.04, 3.0});
         }
         std::printf("\n");
     }
@@ -428,7 +425,7 @@ TEST(DeltaMush, CagesLieWithinTheirBounds) {
             const Box own = test::boxAround(test::skinByMush(morphed, test::mushOf(mush), palette, light));
             const Box held = SkinnedBounds({mode, nullptr, &mush}).posed(reach, palette, weights);
             EXPECT_TRUE(test::holds(held, own)) << run;
-            most = std::max(most, test::diagonal(held) / test::diagonal(linear));
+            test::raise(most, test::diagonal(held) / test::diagonal(linear));
         }
     }
     std::printf("boxes have at most %.2f times the diagonals of linear skinning's\n", most);

@@ -79,11 +79,11 @@ void add(const MushMoments& more, MushMoments& sum) {
     sum.spread += more.spread;
 }
 
-/// The dropped are the heaviest's; and a thousandth of a hundredth of the whole, so that none is flat.
+/// The heaviest joint takes what is dropped, and a hundred-thousandth of the whole, so that no vertex is flat.
 void cutBelow(double cut, MushVertex& vertex) {
     for (const auto& [joint, moments] : vertex.joints) {
         const double most = vertex.joints.at(vertex.heaviest).weight;
-        if (moments.weight > most || vertex.joints.count(vertex.heaviest) == 0) {
+        if (moments.weight > most) {
             vertex.heaviest = joint;
         }
     }

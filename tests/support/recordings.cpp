@@ -120,4 +120,17 @@ ReadRecording expectReplayed(SuppleContext context, const Recorded& recorded, si
     return expectReplayed(recorded, least, mappings);
 }
 
+void expectReplayedFrom(uint32_t begins, uint32_t ends, CrowdContext& context,
+                        const std::function<void(uint32_t first, uint32_t last)>& run, size_t least) {
+    SCOPED_TRACE(begins);
+    run(0, begins);
+    Recorded recorded;
+    context.beginFrame();
+    ASSERT_EQ(recorded.start(context.handle()), SUPPLE_OK);
+    run(begins, ends);
+    context.beginFrame(); // the last ones are complete
+    context.beginFrame();
+    expectReplayed(context.handle(), recorded, least);
+}
+
 } // namespace supple::test

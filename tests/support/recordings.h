@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <span>
@@ -48,5 +49,8 @@ ReadRecording expectReplayed(const Recorded& recorded, size_t least,
 /// The same of one that goes on: it is stopped first.
 ReadRecording expectReplayed(SuppleContext context, const Recorded& recorded, size_t least,
                              std::span<const SuppleMapping> mappings = kMappings);
+/// The same of a host that runs frames: `run(first, last)`. Those before `begins` are not recorded.
+void expectReplayedFrom(uint32_t begins, uint32_t ends, CrowdContext& context,
+                        const std::function<void(uint32_t first, uint32_t last)>& run, size_t least);
 
 } // namespace supple::test

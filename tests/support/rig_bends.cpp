@@ -1,5 +1,8 @@
 #include "tests/support/rig_bends.h"
 
+#include <cstdio>
+#include <gtest/gtest.h>
+
 namespace supple::test {
 
 namespace {
@@ -154,6 +157,15 @@ std::span<const RigBend> rigBends() {
 
 LimbMeasure measured(const Bend& bend, std::span<const glm::dvec3> skinned) {
     return {100.0 * bend.volume(skinned), bend.thickness(skinned), bend.turnedOver(skinned)};
+}
+
+void expectMeasure(const RigBend& bend, const LimbMeasure& own, const LimbMeasure& wanted,
+                   const LimbTolerance& tolerance) {
+    std::printf("  %3.0f (%.2f %.2f) %u", own.volume, own.thickness[0], own.thickness[1], own.turnedOver);
+    EXPECT_NEAR(own.volume, wanted.volume, tolerance.volume) << bend.file << ", " << bend.name;
+    EXPECT_NEAR(own.thickness[0], wanted.thickness[0], tolerance.thickness) << bend.file << ", " << bend.name;
+    EXPECT_NEAR(own.thickness[1], wanted.thickness[1], tolerance.thickness) << bend.file << ", " << bend.name;
+    EXPECT_NEAR(own.turnedOver, wanted.turnedOver, tolerance.turnedOver) << bend.file << ", " << bend.name;
 }
 
 } // namespace supple::test

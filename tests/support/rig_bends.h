@@ -28,4 +28,12 @@ struct RigBend {
 /// turn goes either way: a hair less or more says which.
 [[nodiscard]] std::span<const RigBend> rigBends();
 
+/// How far a measure may be off: per cent, parts, triangles.
+struct LimbTolerance {
+    double volume, thickness, turnedOver;
+};
+/// Prints what was measured of the limb, and compares it.
+void expectMeasure(const RigBend& bend, const LimbMeasure& own, const LimbMeasure& wanted,
+                   const LimbTolerance& tolerance);
+
 } // namespace supple::test

@@ -14,10 +14,6 @@ namespace supple::test {
 inline constexpr uint32_t kSoft = SUPPLE_GROUP_SOFT;
 using Floats = std::vector<float>;
 
-inline double cagesApart(const Floats& a, const Floats& b) {
-    return farthestApart(a, b);
-}
-
 /// A group of cages of which something is soft.
 class SoftGroup : public PlayedGroup {
 public:
@@ -34,8 +30,6 @@ public:
         const auto begin = cages.begin() + static_cast<ptrdiff_t>(instances[i].slot * stride);
         return {begin, begin + static_cast<ptrdiff_t>(4 * size_t{character().cage.vertexCount()})};
     }
-
-    [[nodiscard]] uint32_t clipCount() const { return static_cast<uint32_t>(character().clips.size()); }
 
     Floats cages;
 };

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 namespace supple::test {
@@ -36,6 +37,12 @@ public:
         camera.position[1] = from.y;
         camera.position[2] = from.z;
         EXPECT_EQ(suppleSetCamera(context_.handle(), view_, &camera), SUPPLE_OK);
+    }
+    /// Up is +y.
+    void look(const glm::vec3& from, const glm::vec3& to, const glm::mat4& projection) {
+        const glm::mat4 seen = projection * glm::lookAt(from, to, glm::vec3(0.0f, 1.0f, 0.0f));
+        std::memcpy(camera.viewProjection, &seen, sizeof seen);
+        look(from);
     }
     [[nodiscard]] SuppleView handle() const { return view_; }
     [[nodiscard]] SuppleViewStatistics statistics() const {

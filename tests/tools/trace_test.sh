@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # supple render --trace: trace_test.sh SUPPLE CHARACTER [DRIVER]. Where the device has no ray queries it says so; on DRIVER, the
-# manifest of one that has, the picture is another than that of shadow maps, in the same places. Exits 77 (skipped) without it.
+# manifest of one that has, the picture is another than that of shadow maps. Exits 77 (skipped) without it.
 set -euo pipefail
 supple=$1 character=$2 driver=${3:-}
 folder=$(mktemp -d)
