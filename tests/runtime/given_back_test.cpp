@@ -325,10 +325,13 @@ TEST_P(GivenBack, WhoseInstancesAnotherGroupDrawsKeepsItsMemory) {
     }
     EXPECT_EQ(gives.memory().givenBack, 0u);
     EXPECT_FALSE(drawnPatches(follower).empty());
-    // A capacity makes it anew, with its memory.
+    // A capacity makes it anew, with its memory. Its version goes on.
+    const uint64_t version = gives.info().surfaceVersion;
+    EXPECT_GE(version, 2u) << "given back, and taken again";
     ASSERT_EQ(suppleSetCapacity(context->handle(), leader, kGiving + 2), SUPPLE_OK);
     run(both, true);
     EXPECT_FALSE(gives.drawn().empty());
+    EXPECT_GE(gives.info().surfaceVersion, version);
 }
 
 TEST_P(GivenBack, AViewStaysWithinItsBytes) {

@@ -47,6 +47,8 @@ enum Op : uint32_t {
     kFRem = 140,
     kFMod = 141,
     kVectorTimesScalar = 142,
+    kVectorTimesMatrix = 144,
+    kMatrixTimesMatrix = 146,
     kDot = 148,
     kSelect = 169,
     kLoopMerge = 246,
@@ -407,7 +409,8 @@ std::vector<std::string> operationsThatDriversRound(std::span<const uint32_t> sp
     std::vector<std::string> found;
     for (size_t at = 5; at < spirv.size(); at += spirv[at] >> 16) {
         const uint32_t op = spirv[at] & 0xFFFFu;
-        if (op == kFDiv || op == kFRem || op == kFMod || op == kDot) {
+        if (op == kFDiv || op == kFRem || op == kFMod || op == kDot ||
+            (op >= kVectorTimesMatrix && op <= kMatrixTimesMatrix)) {
             found.push_back("opcode " + std::to_string(op));
         } else if (op == kExtInst) {
             const uint32_t builtIn = spirv[at + 4];

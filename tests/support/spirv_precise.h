@@ -23,8 +23,9 @@ namespace supple::test {
 /// built forgets it (cmake/supple_shaders.cmake). Adds to `loops` how many such loops there are.
 [[nodiscard]] uint32_t preciseInUnrolledLoops(std::span<const uint32_t> spirv, uint32_t& loops);
 
-/// What drivers round as they like, wherever it stands in the module: divisions, remainders, dot products, fused
-/// multiply-adds, roots, exponentials, trigonometry. A line each, by their numbers in the specification.
+/// What drivers round as they like, wherever it stands in the module: divisions, remainders, dot products, products of
+/// matrices, fused multiply-adds, roots, exponentials, trigonometry. A line each, by their numbers in the
+/// specification.
 [[nodiscard]] std::vector<std::string> operationsThatDriversRound(std::span<const uint32_t> spirv);
 
 /// A file of SPIR-V.

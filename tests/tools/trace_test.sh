@@ -19,7 +19,7 @@ case $code in
 3) grep -q 'VK_KHR_acceleration_structure\|VK_KHR_ray_query' "$folder/log" || fail "what the device lacks is not named" ;;
 *) fail "exit code $code" ;;
 esac
-for other in '--scheme cage' --levels --split; do
+for other in '--scheme cage' '--view levels' --levels --split; do
     code=0
     # shellcheck disable=SC2086
     render --trace $other -o "$folder/other.png" || code=$?
