@@ -20,11 +20,12 @@ cat >"$root/try/try.sh" <<'EOF'
 set -euo pipefail
 export DEBIAN_FRONTEND=noninteractive
 cd /try
-apt-get -qq update
-apt-get -qq -y --no-install-recommends install ./libsupple0_*.deb ./libsupple-dev_*.deb ./supple-tools_*.deb mesa-vulkan-drivers >/dev/null
+apt() { apt-get -qq -y -o Dpkg::Use-Pty=0 --no-install-recommends "$@" >/dev/null; }
+apt update
+apt install ./libsupple0_*.deb ./libsupple-dev_*.deb ./supple-tools_*.deb mesa-vulkan-drivers
 supple --version
 supple render pip.glb --clip walk --size 400x400 -o picture.png
-apt-get -qq -y --no-install-recommends install gcc g++ cmake make pkg-config >/dev/null
+apt install gcc g++ cmake make pkg-config
 version=$(supple --version | tr -dc '0-9.')
 for shared in ON OFF; do
     cmake -S consumer -B build-$shared -DHOW=package "-DLANGUAGES=C;CXX" -DVERSION="$version" -DCOMPONENTS=tools -Dsupple_SHARED=$shared >/dev/null
@@ -34,8 +35,8 @@ for shared in ON OFF; do
 done
 cc -std=c99 consumer/main.c -o by_pkg_config $(pkg-config --cflags --libs supple)
 ./by_pkg_config
-apt-get -qq -y purge libsupple0 >/dev/null
-! command -v supple || { echo "supple is still there"; exit 1; }
+apt purge libsupple0
+[ ! -e /usr/bin/supple ] || { echo "supple is still there"; exit 1; }
 echo "installed, used, removed"
 EOF
 chroot "$root" bash /try/try.sh
