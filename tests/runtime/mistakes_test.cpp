@@ -150,11 +150,13 @@ std::vector<EarlyMistake> earlyMistakes() {
         {"`structSize` of `SuppleRequirements` is not set", [](host::Device& d) { return askRequirements(d, 0, 0); }},
         {"`structSize` of `SuppleContextDesc` is not set",
          [](host::Device& d) { return makeContext(d, [](SuppleContextDesc& desc) { desc.structSize = 0; }); }},
-        {"the device was created without a feature",
+        {"the device was created without a feature that a flag needs",
          [](host::Device& d) {
              return makeContext(d, [](SuppleContextDesc& desc) {
                  static VkPhysicalDeviceVulkan12Features none{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
                  desc.enabledFeatures = &none;
+                 desc.mapping = SUPPLE_MAPPING_WIDE;
+                 desc.flags = SUPPLE_CONTEXT_SHARED_DISPATCHES;
              });
          }},
         {"the memory callbacks lack `free`",
