@@ -24,6 +24,9 @@ if(NOT SUPPLE_COMPILED_SHADERS)
     find_program(SUPPLE_SPIRV_OPT NAMES spirv-opt REQUIRED)
 endif()
 
+# The oldest that the kernels run on: workgroup sizes by specialization constants need maintenance4 from SPIR-V 1.6 on.
+set(SUPPLE_SPIRV_TARGET vulkan1.1)
+
 # Drivers inline all functions before they look at constants: code that is never taken, and every early return, would cost
 # time whenever a pipeline is made. And a driver keeps an array in memory until it has unrolled the loops that index it. These
 # passes unroll and inline nearly all of it once, at build time, and throw away what is dead. None computes with floats in
@@ -47,7 +50,7 @@ macro(supple_shader_entry entry)
     string(REPLACE "+" ";-D" shader_flags ${entry})
     list(POP_FRONT shader_flags shader_source)
     set(shader_source ${supple_SOURCE_DIR}/shaders/${shader_source})
-    list(PREPEND shader_flags --quiet -V --target-env vulkan1.3 -I${supple_SOURCE_DIR})
+    list(PREPEND shader_flags --quiet -V --target-env ${SUPPLE_SPIRV_TARGET} -I${supple_SOURCE_DIR})
 endmacro()
 
 function(supple_embed_kernels target)
@@ -72,7 +75,7 @@ function(supple_embed_kernels target)
             # The SPIR-V comes first: it is what the dependencies that glslang writes are of.
             add_custom_command(OUTPUT ${base}.spv ${base}.h
                 COMMAND ${SUPPLE_GLSLANG} ${shader_flags} --depfile ${base}.d -o ${base}.spv ${shader_source}
-                COMMAND ${SUPPLE_SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout ${SUPPLE_SPIRV_PASSES} ${base}.spv
+                COMMAND ${SUPPLE_SPIRV_OPT} --target-env=${SUPPLE_SPIRV_TARGET} ${SUPPLE_SPIRV_PASSES} ${base}.spv
                         -o ${base}.opt.spv
                 COMMAND ${CMAKE_COMMAND} -DNAME=${shader_name} -DSPIRV=${base}.opt.spv -DOUT=${base}.h
                         -P ${supple_shader_script}

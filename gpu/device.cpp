@@ -3,61 +3,48 @@
 #include "gpu/ray_tracing.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
+#include <limits>
 #include <vector>
 
 namespace supple::gpu {
 
 namespace {
 
-struct NamedFeature12 {
-    const char* name;
-    VkBool32 VkPhysicalDeviceVulkan12Features::*member;
-};
-struct NamedFeature13 {
-    const char* name;
-    VkBool32 VkPhysicalDeviceVulkan13Features::*member;
-};
-
-// The 24-byte surface vertex is stored as tightly packed vec3.
-constexpr NamedFeature12 kFeatures12[] = {{"scalarBlockLayout", &VkPhysicalDeviceVulkan12Features::scalarBlockLayout}};
-// maintenance4: workgroup sizes by specialization constant alone.
-constexpr NamedFeature13 kFeatures13[] = {{"synchronization2", &VkPhysicalDeviceVulkan13Features::synchronization2},
-                                          {"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4}};
-
-constexpr const char* kNewInstance = "the VkInstance must be created with apiVersion 1.3 or more";
-/// No VkBool32 that a driver writes.
-constexpr VkBool32 kUntouched = 2;
+constexpr const char* kNewInstance = "the VkInstance must be created with apiVersion 1.1 or more";
 
 std::string versionText(uint32_t version) {
     return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
 }
 
-/// What the device offers of the features that are needed. Loaders answer for an instance of Vulkan 1.0 themselves, and
-/// know no structs of later versions: these stay untouched.
-struct OfferedFeatures {
-    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    bool untouched = true;
+/// What newer structs say of a device. Of those that its version lacks, the members stay as they are here.
+struct Properties {
+    VkPhysicalDeviceMaintenance3Properties maintenance3{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceMaintenance4Properties maintenance4{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
+    VkPhysicalDeviceProperties2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
 
-    OfferedFeatures(const Functions& vk, VkPhysicalDevice physicalDevice) {
-        for (const NamedFeature12& feature : kFeatures12) {
-            features12.*feature.member = kUntouched;
-        }
-        for (const NamedFeature13& feature : kFeatures13) {
-            features13.*feature.member = kUntouched;
-        }
-        features12.pNext = &features13;
-        VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-        features.pNext = &features12;
-        vk.GetPhysicalDeviceFeatures2(physicalDevice, &features);
-        for (const NamedFeature12& feature : kFeatures12) {
-            untouched = untouched && features12.*feature.member == kUntouched;
-        }
-        for (const NamedFeature13& feature : kFeatures13) {
-            untouched = untouched && features13.*feature.member == kUntouched;
-        }
+    Properties(const Functions& vk, VkPhysicalDevice physicalDevice) {
+        vk.GetPhysicalDeviceProperties2(physicalDevice, &all);
+        maintenance4.maxBufferSize = std::numeric_limits<VkDeviceSize>::max();
+        const uint32_t version = all.properties.apiVersion;
+        const auto chain = [&](uint32_t since, auto& properties) {
+            if (version >= since) {
+                properties.pNext = all.pNext;
+                all.pNext = &properties;
+            }
+        };
+        chain(VK_API_VERSION_1_1, maintenance3);
+        chain(VK_API_VERSION_1_2, driver);
+        chain(VK_API_VERSION_1_3, maintenance4);
+        vk.GetPhysicalDeviceProperties2(physicalDevice, &all);
+    }
+    Properties(const Properties&) = delete;
+    Properties& operator=(const Properties&) = delete;
+
+    [[nodiscard]] uint32_t version() const { return all.properties.apiVersion; }
+    /// Loaders answer for an instance of Vulkan 1.0 themselves, and know no structs of later versions.
+    [[nodiscard]] bool isOfOldInstance() const {
+        return version() >= VK_API_VERSION_1_1 && maintenance3.maxMemoryAllocationSize == 0;
     }
 };
 
@@ -100,115 +87,51 @@ Error vulkanError(VkResult result, const std::string& what) {
     return {code, what + ": " + resultName(result) + " (" + std::to_string(static_cast<int>(result)) + ")"};
 }
 
-Requirements requirements() {
-    Requirements r;
-    for (const NamedFeature12& feature : kFeatures12) {
-        r.features12.*feature.member = VK_TRUE;
-    }
-    for (const NamedFeature13& feature : kFeatures13) {
-        r.features13.*feature.member = VK_TRUE;
-    }
-    return r;
-}
-
 std::string missingInInstance(VkInstance instance, VkPhysicalDevice physicalDevice,
                               PFN_vkGetInstanceProcAddr getInstanceProcAddr, uint32_t instanceVersion) {
-    if (instanceVersion != 0 && instanceVersion < VK_API_VERSION_1_3) {
+    if (instanceVersion != 0 && instanceVersion < kVulkanVersion) {
         return std::string(kNewInstance) + ": this one has " + versionText(instanceVersion);
     }
     Functions vk;
     if (const char* missing = vk.loadInstance(instance, getInstanceProcAddr)) {
         return std::string(kNewInstance) + ": this one has no " + missing;
     }
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    vk.GetPhysicalDeviceProperties2(physicalDevice, &properties);
-    if (properties.properties.apiVersion >= VK_API_VERSION_1_3 && OfferedFeatures(vk, physicalDevice).untouched) {
-        return std::string(kNewInstance) + ": this one has 1.0";
-    }
-    return {};
+    return Properties(vk, physicalDevice).isOfOldInstance() ? std::string(kNewInstance) + ": this one has 1.0" : "";
 }
 
 std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDevice,
                                PFN_vkGetInstanceProcAddr getInstanceProcAddr) {
     Functions vk;
     vk.loadInstance(instance, getInstanceProcAddr);
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    vk.GetPhysicalDeviceProperties2(physicalDevice, &properties);
-    if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
-        return "Vulkan 1.3 (it offers " + versionText(properties.properties.apiVersion) + ")";
+    const Properties properties(vk, physicalDevice);
+    if (properties.version() < kVulkanVersion) {
+        return "Vulkan 1.1 (it offers " + versionText(properties.version()) + ")";
     }
-    const OfferedFeatures offered(vk, physicalDevice);
-    for (const NamedFeature12& feature : kFeatures12) {
-        if (offered.features12.*feature.member != VK_TRUE) {
-            return std::string("feature ") + feature.name;
-        }
-    }
-    for (const NamedFeature13& feature : kFeatures13) {
-        if (offered.features13.*feature.member != VK_TRUE) {
-            return std::string("feature ") + feature.name;
-        }
-    }
-
-    const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+    const VkPhysicalDeviceLimits& limits = properties.all.properties.limits;
     if (std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers) <
         kMaxStorageBuffers) {
         return std::string("limit maxPerStageDescriptorStorageBuffers of ") + std::to_string(kMaxStorageBuffers);
     }
-    if (std::min(limits.maxPerStageDescriptorSampledImages, limits.maxDescriptorSetSampledImages) < kMaxTexelBuffers) {
-        return "limit maxPerStageDescriptorSampledImages of " + std::to_string(kMaxTexelBuffers);
-    }
     if (limits.maxPushConstantsSize < kPushConstantBytes) {
         return "limit maxPushConstantsSize of " + std::to_string(kPushConstantBytes);
-    }
-
-    for (VkFormat format : {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32_UINT}) {
-        VkFormatProperties formatProperties;
-        vk.GetPhysicalDeviceFormatProperties(physicalDevice, format, &formatProperties);
-        if ((formatProperties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) == 0) {
-            return "uniform texel buffers of 32-bit formats";
-        }
     }
     return {};
 }
 
-std::string disabledFeature(const void* chain) {
-    VkPhysicalDeviceVulkan12Features enabled12{};
-    VkPhysicalDeviceVulkan13Features enabled13{};
-    for (const auto* next = static_cast<const VkBaseInStructure*>(chain); next != nullptr; next = next->pNext) {
-        switch (next->sType) {
-        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES:
-            enabled12 = *reinterpret_cast<const VkPhysicalDeviceVulkan12Features*>(next);
-            break;
-        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES:
-            enabled13 = *reinterpret_cast<const VkPhysicalDeviceVulkan13Features*>(next);
-            break;
-        // What came into the core versions may be enabled one by one instead.
-        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES:
-            enabled12.scalarBlockLayout =
-                reinterpret_cast<const VkPhysicalDeviceScalarBlockLayoutFeatures*>(next)->scalarBlockLayout;
-            break;
-        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES:
-            enabled13.synchronization2 =
-                reinterpret_cast<const VkPhysicalDeviceSynchronization2Features*>(next)->synchronization2;
-            break;
-        case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES:
-            enabled13.maintenance4 = reinterpret_cast<const VkPhysicalDeviceMaintenance4Features*>(next)->maintenance4;
-            break;
-        default:
-            break;
-        }
+std::string missingForAddresses(VkInstance instance, VkPhysicalDevice physicalDevice,
+                                PFN_vkGetInstanceProcAddr getInstanceProcAddr) {
+    Functions vk;
+    vk.loadInstance(instance, getInstanceProcAddr);
+    const uint32_t version = Properties(vk, physicalDevice).version();
+    if (version < VK_API_VERSION_1_2) {
+        return "Vulkan 1.2 (it offers " + versionText(version) + ")";
     }
-    for (const NamedFeature12& feature : kFeatures12) {
-        if (enabled12.*feature.member == VK_FALSE) {
-            return feature.name;
-        }
-    }
-    for (const NamedFeature13& feature : kFeatures13) {
-        if (enabled13.*feature.member == VK_FALSE) {
-            return feature.name;
-        }
-    }
-    return {};
+    VkPhysicalDeviceBufferDeviceAddressFeatures addresses{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    features.pNext = &addresses;
+    vk.GetPhysicalDeviceFeatures2(physicalDevice, &features);
+    return addresses.bufferDeviceAddress == VK_TRUE ? "" : "feature bufferDeviceAddress";
 }
 
 bool enablesAddresses(const void* chain) {
@@ -243,11 +166,23 @@ namespace {
 Status checkRayTracing(const DeviceDesc& desc) {
     const std::string missing = missingForRayTracing(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr);
     if (!missing.empty()) {
-        return Error{ErrorCode::unsupported, "ray tracing: the device lacks the " + missing};
+        return Error{ErrorCode::unsupported, "ray tracing: the device lacks " + missing};
     }
     const std::string disabled = desc.enabledFeatures != nullptr ? disabledForRayTracing(desc.enabledFeatures) : "";
     if (!disabled.empty()) {
         return Error{ErrorCode::disabled, "ray tracing: the device was created without the feature " + disabled};
+    }
+    return success();
+}
+
+Status checkSharedDispatches(const DeviceDesc& desc) {
+    const std::string missing = missingForAddresses(desc.instance, desc.physicalDevice, desc.getInstanceProcAddr);
+    if (!missing.empty()) {
+        return Error{ErrorCode::unsupported, "shared dispatches: the device lacks " + missing};
+    }
+    if (desc.enabledFeatures != nullptr && !enablesAddresses(desc.enabledFeatures)) {
+        return Error{ErrorCode::disabled,
+                     "shared dispatches: the device was created without the feature bufferDeviceAddress"};
     }
     return success();
 }
@@ -262,11 +197,42 @@ Status checkFit(const DeviceDesc& desc) {
     if (!missing.empty()) {
         return Error{ErrorCode::unsupported, "the device lacks " + missing};
     }
-    const std::string disabled = desc.enabledFeatures != nullptr ? disabledFeature(desc.enabledFeatures) : "";
-    if (!disabled.empty()) {
-        return Error{ErrorCode::disabled, "the device was created without the feature " + disabled};
-    }
     return desc.rayTracing ? checkRayTracing(desc) : success();
+}
+
+/// What the narrow mapping lacks, or empty.
+std::string missingForTexels(const Functions& vk, VkPhysicalDevice physicalDevice,
+                             const VkPhysicalDeviceLimits& limits) {
+    if (std::min(limits.maxPerStageDescriptorSampledImages, limits.maxDescriptorSetSampledImages) < kMaxTexelBuffers) {
+        return "limit maxPerStageDescriptorSampledImages of " + std::to_string(kMaxTexelBuffers);
+    }
+    for (VkFormat format : {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32G32B32A32_UINT, VK_FORMAT_R32_UINT}) {
+        VkFormatProperties formatProperties;
+        vk.GetPhysicalDeviceFormatProperties(physicalDevice, format, &formatProperties);
+        if ((formatProperties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) == 0) {
+            return "uniform texel buffers of 32-bit formats";
+        }
+    }
+    return {};
+}
+
+/// The mapping that fits the device, or the one that was asked for.
+Result<Mapping> mappingOf(const DeviceDesc& desc, const Functions& vk, const Properties& properties) {
+    const VkPhysicalDeviceLimits& limits = properties.all.properties.limits;
+    const std::string missing = missingForTexels(vk, desc.physicalDevice, limits);
+    if (!missing.empty() && desc.mapping == MappingChoice::narrow) {
+        return Error{ErrorCode::unsupported, "the narrow mapping: the device lacks " + missing};
+    }
+    Mapping mapping = chooseMapping(properties.all.properties.deviceType, properties.driver.driverID,
+                                    missing.empty() ? limits.maxTexelBufferElements : 0, desc.mapping);
+    mapping.fanRecords = desc.fanRecords;
+    mapping.sharesDispatches = mapping.wide && desc.shareDispatches;
+    if (mapping.sharesDispatches) {
+        if (Status fit = checkSharedDispatches(desc); !fit) {
+            return fit.error();
+        }
+    }
+    return mapping;
 }
 
 } // namespace
@@ -286,31 +252,22 @@ Result<Device> Device::create(const DeviceDesc& desc) {
     d.rayTracing = desc.rayTracing;
     d.vk.loadInstance(desc.instance, desc.getInstanceProcAddr);
     if (const char* name = d.vk.loadDevice(desc.instance, desc.device, desc.getInstanceProcAddr, desc.debugUtils)) {
-        const std::string text = std::string("the device gives no ") + name;
-        // Loaders and drivers hand out what the instance's version has. Only these functions are newer than 1.1.
-        constexpr std::array<std::string_view, 3> kNewer{"vkGetBufferDeviceAddress", "vkCmdPipelineBarrier2",
-                                                         "vkCmdWriteTimestamp2"};
-        const bool isNew = std::find(kNewer.begin(), kNewer.end(), name) != kNewer.end();
-        return Error{ErrorCode::unsupported, isNew ? text + ": " + kNewInstance : text};
+        return Error{ErrorCode::unsupported, std::string("the device gives no ") + name};
     }
 
-    VkPhysicalDeviceMaintenance3Properties maintenance3{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
-    VkPhysicalDeviceMaintenance4Properties maintenance4{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
-    maintenance4.pNext = &maintenance3;
-    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-    driver.pNext = &maintenance4;
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    properties.pNext = &driver;
-    d.vk.GetPhysicalDeviceProperties2(desc.physicalDevice, &properties);
-    d.limits = properties.properties.limits;
-    d.maxBufferSize = maintenance4.maxBufferSize;
-    d.maxAllocationSize = maintenance3.maxMemoryAllocationSize;
-    d.mapping = chooseMapping(properties.properties.deviceType, driver.driverID, desc.mapping);
-    d.mapping.fanRecords = desc.fanRecords;
-    d.mapping.sharesDispatches = d.mapping.wide && desc.shareDispatches;
-    if (d.mapping.sharesDispatches && desc.enabledFeatures != nullptr && !enablesAddresses(desc.enabledFeatures)) {
-        return Error{ErrorCode::disabled,
-                     "shared dispatches: the device was created without the feature bufferDeviceAddress"};
+    const Properties properties(d.vk, desc.physicalDevice);
+    d.limits = properties.all.properties.limits;
+    d.maxBufferSize = properties.maintenance4.maxBufferSize;
+    d.maxAllocationSize = properties.maintenance3.maxMemoryAllocationSize;
+    Result<Mapping> mapping = mappingOf(desc, d.vk, properties);
+    if (!mapping) {
+        return mapping.error();
+    }
+    d.mapping = *mapping;
+    if (d.givesAddresses() && d.vk.GetBufferDeviceAddress == nullptr) {
+        return Error{ErrorCode::unsupported,
+                     "the device gives no vkGetBufferDeviceAddress: the VkInstance must be created with apiVersion 1.2 "
+                     "or more"};
     }
     d.vk.GetPhysicalDeviceMemoryProperties(desc.physicalDevice, &d.memory);
     d.drawIndirectFirstInstance = hasIndirectFirstInstance(d.vk, desc.physicalDevice, desc.enabledFeatures);
@@ -362,38 +319,6 @@ VkDeviceSize Device::bufferWindow(uint32_t texelBytes) const {
     const VkDeviceSize texels = static_cast<VkDeviceSize>(limits.maxTexelBufferElements) * texelBytes;
     // The wide mapping reads no texels: its views may be shorter than the buffer.
     return mapping.wide ? limits.maxStorageBufferRange : std::min<VkDeviceSize>(limits.maxStorageBufferRange, texels);
-}
-
-void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScope before, SyncScope after) {
-    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = before.stages;
-    barrier.srcAccessMask = before.access;
-    barrier.dstStageMask = after.stages;
-    barrier.dstAccessMask = after.access;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    device.vk.CmdPipelineBarrier2(commandBuffer, &dependency);
-}
-
-VkBufferMemoryBarrier2 bufferBarrier(VkBuffer buffer) {
-    VkBufferMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-    barrier.buffer = buffer;
-    barrier.size = VK_WHOLE_SIZE;
-    return barrier;
-}
-
-void computeBarrier(const Device& device, VkCommandBuffer commandBuffer) {
-    constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    memoryBarrier(device, commandBuffer, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kWrite},
-                  {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead | kWrite});
-}
-
-void disjointBarrier(const Device& device, VkCommandBuffer commandBuffer) {
-    if (!device.mapping.wide) {
-        computeBarrier(device, commandBuffer);
-    }
 }
 
 } // namespace supple::gpu

@@ -59,7 +59,7 @@ struct Device {
     Functions vk;
     Mapping mapping;
     VkPhysicalDeviceLimits limits{};
-    VkDeviceSize maxBufferSize = 0;     ///< VkPhysicalDeviceMaintenance4Properties
+    VkDeviceSize maxBufferSize = 0;     ///< VkPhysicalDeviceMaintenance4Properties; else without a bound
     VkDeviceSize maxAllocationSize = 0; ///< VkPhysicalDeviceMaintenance3Properties
     VkPhysicalDeviceMemoryProperties memory{};
     uint32_t timestampValidBits = 0;
@@ -81,28 +81,21 @@ struct Device {
     [[nodiscard]] VkDeviceSize bufferWindow(uint32_t texelBytes) const;
 };
 
-/// What a device must offer. The structs come back with only the needed features set and pNext null.
-struct Requirements {
-    uint32_t apiVersion = VK_API_VERSION_1_3;
-    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-};
-[[nodiscard]] Requirements requirements();
+/// What instance and device must have. No feature and no extension is needed.
+inline constexpr uint32_t kVulkanVersion = VK_API_VERSION_1_1;
 /// What speaks against the instance, in a sentence; or empty. `instanceVersion`: what it was created with; 0: not
-/// known. Then an instance of Vulkan 1.0 is found out by what it leaves untouched. Nothing tells one of 1.1 or 1.2:
-/// loaders hand out the functions of a physical device whatever the version, and only the functions of a device are
-/// missing.
+/// known. Then an instance of Vulkan 1.0 is found out by what it leaves untouched.
 [[nodiscard]] std::string missingInInstance(VkInstance instance, VkPhysicalDevice physicalDevice,
                                             PFN_vkGetInstanceProcAddr getInstanceProcAddr, uint32_t instanceVersion);
 /// The first thing `physicalDevice` lacks, or empty. The instance is fit.
 [[nodiscard]] std::string missingRequirement(VkInstance instance, VkPhysicalDevice physicalDevice,
                                              PFN_vkGetInstanceProcAddr getInstanceProcAddr);
 
-/// The first feature Supple needs that a chain given to vkCreateDevice (VkDeviceCreateInfo::pNext) does not enable, or
-/// empty.
-[[nodiscard]] std::string disabledFeature(const void* chain);
+/// The same of buffers that have addresses.
+[[nodiscard]] std::string missingForAddresses(VkInstance instance, VkPhysicalDevice physicalDevice,
+                                              PFN_vkGetInstanceProcAddr getInstanceProcAddr);
 
-/// Whether such a chain enables bufferDeviceAddress.
+/// Whether a chain given to vkCreateDevice (VkDeviceCreateInfo::pNext) enables bufferDeviceAddress.
 [[nodiscard]] bool enablesAddresses(const void* chain);
 
 /// Whether the feature drawIndirectFirstInstance is there, and enabled as far as the chain tells: it may be enabled by
@@ -111,20 +104,5 @@ struct Requirements {
 
 /// An error from a VkResult: "what: VK_ERROR_...".
 [[nodiscard]] Error vulkanError(VkResult result, const std::string& what);
-
-/// Makes the writes in `before` visible to `after`; a global barrier, so no buffer is named.
-struct SyncScope {
-    VkPipelineStageFlags2 stages = 0;
-    VkAccessFlags2 access = 0;
-};
-void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScope before, SyncScope after);
-/// A whole buffer, between two queue families that are to be filled in.
-[[nodiscard]] VkBufferMemoryBarrier2 bufferBarrier(VkBuffer buffer);
-/// What compute shaders wrote before, compute shaders after may read (texel buffers too) and write.
-void computeBarrier(const Device& device, VkCommandBuffer commandBuffer);
-/// Between dispatches that share a buffer and nothing in it, or only atomics. Synchronization validation asks for a
-/// barrier where buffers are read as texels, to it one resource each; in the wide mapping, where none are and a barrier
-/// lets the device run empty, there is none.
-void disjointBarrier(const Device& device, VkCommandBuffer commandBuffer);
 
 } // namespace supple::gpu

@@ -1,6 +1,7 @@
 // How the dispatches of surface passes reach a command buffer: one by one, or shared between groups (gpu/tasks.h).
 #pragma once
 
+#include "gpu/barriers.h"
 #include "gpu/device.h"
 #include "gpu/pipeline.h"
 #include "shaders/shared/tasks.h"

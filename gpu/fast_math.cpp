@@ -1,16 +1,26 @@
 #include "gpu/fast_math.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace supple::gpu {
 namespace {
 
 constexpr size_t kHeaderWords = 5;
-constexpr uint32_t kOpEntryPoint = 15, kOpExecutionMode = 16, kOpCapability = 17;
+constexpr uint32_t kOpExtension = 10, kOpEntryPoint = 15, kOpExecutionMode = 16, kOpCapability = 17;
 constexpr uint32_t kSignedZeroInfNanPreserveCapability = 4466, kSignedZeroInfNanPreserveMode = 4461;
 
 constexpr uint32_t instruction(uint32_t words, uint32_t op) {
     return words << 16 | op;
+}
+
+/// OpExtension of what SPIR-V has of itself from 1.4 on.
+std::vector<uint32_t> floatControls() {
+    constexpr char kName[] = "SPV_KHR_float_controls";
+    std::vector<uint32_t> words(1 + (sizeof(kName) + 3) / 4);
+    words[0] = instruction(static_cast<uint32_t>(words.size()), kOpExtension);
+    std::memcpy(words.data() + 1, kName, sizeof(kName));
+    return words;
 }
 
 } // namespace
@@ -28,9 +38,15 @@ bool hasFastMath(const Device& device) {
 std::vector<uint32_t> withoutFastMath(std::span<const uint32_t> spirv) {
     std::vector<uint32_t> words(spirv.begin(), spirv.begin() + kHeaderWords);
     words.insert(words.end(), {instruction(2, kOpCapability), kSignedZeroInfNanPreserveCapability});
+    const std::vector<uint32_t> extension = floatControls();
+    bool extended = false;
     for (size_t at = kHeaderWords; at < spirv.size();) {
         const uint32_t length = std::max(spirv[at] >> 16, 1u), op = spirv[at] & 0xFFFFu;
         const size_t end = std::min<size_t>(at + length, spirv.size());
+        if (op != kOpCapability && !extended) { // extensions come right behind the capabilities
+            words.insert(words.end(), extension.begin(), extension.end());
+            extended = true;
+        }
         words.insert(words.end(), spirv.begin() + static_cast<ptrdiff_t>(at),
                      spirv.begin() + static_cast<ptrdiff_t>(end));
         if (op == kOpEntryPoint && length > 2) { // (execution model, function, ..); execution modes come right behind

@@ -20,6 +20,9 @@ const char* Functions::loadDevice(VkInstance instance, VkDevice device, PFN_vkGe
         return "vk" #name;
     SUPPLE_DEVICE_FUNCTIONS(SUPPLE_LOAD)
 #undef SUPPLE_LOAD
+#define SUPPLE_LOAD(name) name = reinterpret_cast<PFN_vk##name>(GetDeviceProcAddr(device, "vk" #name));
+    SUPPLE_NEWER_FUNCTIONS(SUPPLE_LOAD)
+#undef SUPPLE_LOAD
     if (debugUtils) {
         // An instance extension: some loaders hand its device-level functions out through the instance only.
 #define SUPPLE_LOAD(name)                                                                                              \

@@ -1,5 +1,5 @@
-// The Vulkan entry points Supple uses, looked up through the host's vkGetInstanceProcAddr. Core 1.3 names only; the
-// library links no loader.
+// The Vulkan entry points Supple uses, looked up through the host's vkGetInstanceProcAddr. Names of core 1.1, but
+// for one; the library links no loader.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -18,7 +18,6 @@ namespace supple::gpu {
 #define SUPPLE_DEVICE_FUNCTIONS(X)                                                                                     \
     X(CreateBuffer)                                                                                                    \
     X(DestroyBuffer)                                                                                                   \
-    X(GetBufferDeviceAddress)                                                                                          \
     X(GetBufferMemoryRequirements)                                                                                     \
     X(AllocateMemory)                                                                                                  \
     X(FreeMemory)                                                                                                      \
@@ -44,8 +43,8 @@ namespace supple::gpu {
     X(GetQueryPoolResults)                                                                                             \
     X(CmdResetQueryPool)                                                                                               \
     X(CmdCopyQueryPoolResults)                                                                                         \
-    X(CmdWriteTimestamp2)                                                                                              \
-    X(CmdPipelineBarrier2)                                                                                             \
+    X(CmdWriteTimestamp)                                                                                               \
+    X(CmdPipelineBarrier)                                                                                              \
     X(CmdBindPipeline)                                                                                                 \
     X(CmdBindDescriptorSets)                                                                                           \
     X(CmdPushConstants)                                                                                                \
@@ -54,6 +53,9 @@ namespace supple::gpu {
     X(CmdCopyBuffer)                                                                                                   \
     X(CmdFillBuffer)                                                                                                   \
     X(CmdUpdateBuffer)
+
+/// Of Vulkan 1.2: null where instance or device is older. Only what needs addresses calls it.
+#define SUPPLE_NEWER_FUNCTIONS(X) X(GetBufferDeviceAddress)
 
 /// VK_EXT_debug_utils, loaded only when the host says it enabled the extension.
 #define SUPPLE_DEBUG_FUNCTIONS(X)                                                                                      \
@@ -65,6 +67,7 @@ struct Functions {
 #define SUPPLE_DECLARE(name) PFN_vk##name name = nullptr;
     SUPPLE_INSTANCE_FUNCTIONS(SUPPLE_DECLARE)
     SUPPLE_DEVICE_FUNCTIONS(SUPPLE_DECLARE)
+    SUPPLE_NEWER_FUNCTIONS(SUPPLE_DECLARE)
     SUPPLE_DEBUG_FUNCTIONS(SUPPLE_DECLARE)
 #undef SUPPLE_DECLARE
 

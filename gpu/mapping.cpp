@@ -4,10 +4,13 @@
 
 namespace supple::gpu {
 
-Mapping chooseMapping(VkPhysicalDeviceType type, VkDriverId driver, MappingChoice choice) {
+Mapping chooseMapping(VkPhysicalDeviceType type, VkDriverId driver, uint32_t texels, MappingChoice choice) {
+    // Vulkan promises 65,536 texels, which SwiftShader has: a single character may have more. lavapipe has 128 million.
+    constexpr uint32_t kEnoughTexels = 1u << 20;
+    const bool prefersNarrow = type == VK_PHYSICAL_DEVICE_TYPE_CPU && texels >= kEnoughTexels;
     Mapping mapping;
-    mapping.wide =
-        choice == MappingChoice::wide || (choice == MappingChoice::automatic && type != VK_PHYSICAL_DEVICE_TYPE_CPU);
+    mapping.wide = choice == MappingChoice::wide || (choice == MappingChoice::automatic && !prefersNarrow);
+    mapping.lacksTexels = choice == MappingChoice::automatic && type == VK_PHYSICAL_DEVICE_TYPE_CPU && mapping.wide;
     // Vulkan allows 2.5 ulp. llvmpipe compiles to the CPU's own division, which IEEE 754 rounds correctly, and dividing
     // is cheaper there than a load; the wide mapping reads the table everywhere so that it is tested here too.
     mapping.exactDivision = !mapping.wide && driver == VK_DRIVER_ID_MESA_LLVMPIPE;

@@ -8,6 +8,7 @@ namespace supple::gpu {
 
 struct Mapping {
     bool wide = false;          ///< many lanes a patch and storage-buffer loads, else one lane a patch and texel loads
+    bool lacksTexels = false;   ///< wide for this reason alone
     bool exactDivision = false; ///< the device rounds float division correctly, so k / rate needs no table
     uint32_t localSize = 32;
     /// Lanes that keep all of the device busy: a kernel with so many need not divide its work.
@@ -22,7 +23,9 @@ struct Mapping {
 
 enum class MappingChoice { automatic, narrow, wide };
 
-/// Narrow on CPU devices, wide on everything else, unless the caller chooses.
-[[nodiscard]] Mapping chooseMapping(VkPhysicalDeviceType type, VkDriverId driver, MappingChoice choice);
+/// Narrow on CPU devices that can read `texels` enough of a buffer (maxTexelBufferElements; 0: none at all), wide on
+/// everything else, unless the caller chooses.
+[[nodiscard]] Mapping chooseMapping(VkPhysicalDeviceType type, VkDriverId driver, uint32_t texels,
+                                    MappingChoice choice);
 
 } // namespace supple::gpu

@@ -40,16 +40,14 @@ std::string missingForRayTracing(VkInstance instance, VkPhysicalDevice physicalD
             return std::string("extension ") + name;
         }
     }
+    if (std::string missing = missingForAddresses(instance, physicalDevice, getInstanceProcAddr); !missing.empty()) {
+        return missing;
+    }
     VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
-    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    features12.pNext = &structures;
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    features.pNext = &features12;
+    features.pNext = &structures;
     vk.GetPhysicalDeviceFeatures2(physicalDevice, &features);
-    if (features12.bufferDeviceAddress != VK_TRUE) {
-        return "feature bufferDeviceAddress";
-    }
     return structures.accelerationStructure == VK_TRUE ? "" : "feature accelerationStructure";
 }
 

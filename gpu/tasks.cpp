@@ -1,5 +1,6 @@
 #include "gpu/tasks.h"
 
+#include "gpu/barriers.h"
 #include "gpu/device.h"
 
 #include <algorithm>

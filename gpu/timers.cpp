@@ -1,4 +1,5 @@
 #include "gpu/timers.h"
+#include "gpu/barriers.h"
 
 #include <algorithm>
 #include <string>
@@ -66,7 +67,7 @@ bool Timers::take(VkCommandBuffer commandBuffer, uint32_t count, uint32_t& first
 }
 
 void Timers::mark(VkCommandBuffer commandBuffer, uint32_t index) const {
-    device_->vk.CmdWriteTimestamp2(commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(), index);
+    device_->vk.CmdWriteTimestamp(commandBuffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool_.get(), index);
     if (device_->mapping.lazyTimestamps) {
         memoryBarrier(*device_, commandBuffer, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0},
                       {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0});

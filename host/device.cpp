@@ -11,7 +11,10 @@ namespace supple::host {
 
 namespace {
 
-constexpr uint32_t kInstanceVersion = VK_API_VERSION_1_3;
+/// What the instance is created for. Drawing takes the newer one.
+uint32_t versionFor(const DeviceOptions& options) {
+    return options.onlyCompute ? VK_API_VERSION_1_1 : VK_API_VERSION_1_3;
+}
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 /// Every platform's surface extension; those the instance has are enabled, so that this file needs no window library.
@@ -105,7 +108,7 @@ std::vector<VkExtensionProperties> deviceExtensions(VkPhysicalDevice physicalDev
 SuppleRequirements askedRequirements(const DeviceOptions& options) {
     SuppleRequirements requirements{};
     requirements.structSize = sizeof requirements;
-    requirements.instanceVersion = kInstanceVersion;
+    requirements.instanceVersion = versionFor(options);
     if (options.rayTracing)
         requirements.contextFlags = SUPPLE_CONTEXT_RAY_TRACING;
     return requirements;
@@ -121,11 +124,12 @@ bool hasRayQueries(VkPhysicalDevice physicalDevice) {
     return rayQuery.rayQuery == VK_TRUE;
 }
 
-/// Why this device will not do, or empty.
-std::string shortcoming(VkInstance instance, VkPhysicalDevice physicalDevice, const DeviceOptions& options) {
-    SuppleRequirements requirements = askedRequirements(options);
-    if (suppleQueryRequirements(instance, physicalDevice, vkGetInstanceProcAddr, &requirements) != SUPPLE_OK)
-        return requirements.reason[0] != 0 ? requirements.reason : "does not meet Supple's requirements";
+/// What drawing lacks, or empty.
+std::string shortcomingForDrawing(VkPhysicalDevice physicalDevice) {
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physicalDevice, &properties);
+    if (properties.apiVersion < VK_API_VERSION_1_3)
+        return "needs Vulkan 1.3 to draw";
     auto features13 = vkStruct<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
     auto features = vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features13);
     vkGetPhysicalDeviceFeatures2(physicalDevice, &features);
@@ -133,6 +137,18 @@ std::string shortcoming(VkInstance instance, VkPhysicalDevice physicalDevice, co
         return "missing feature dynamicRendering";
     if (features13.synchronization2 == VK_FALSE)
         return "missing feature synchronization2";
+    return {};
+}
+
+/// Why this device will not do, or empty.
+std::string shortcoming(VkInstance instance, VkPhysicalDevice physicalDevice, const DeviceOptions& options) {
+    SuppleRequirements requirements = askedRequirements(options);
+    if (suppleQueryRequirements(instance, physicalDevice, vkGetInstanceProcAddr, &requirements) != SUPPLE_OK)
+        return requirements.reason[0] != 0 ? requirements.reason : "does not meet Supple's requirements";
+    if (!options.onlyCompute) {
+        if (std::string missing = shortcomingForDrawing(physicalDevice); !missing.empty())
+            return missing;
+    }
     uint32_t family = 0;
     if (!findQueueFamily(physicalDevice, family))
         return "no queue that does graphics and compute";
@@ -260,8 +276,8 @@ Device::~Device() {
 
 Status Device::createInstance(const DeviceOptions& options) {
     uint32_t version = 0;
-    if (vkEnumerateInstanceVersion(&version) != VK_SUCCESS || version < VK_API_VERSION_1_3)
-        return Error{ErrorCode::unsupported, "no Vulkan 1.3 loader"};
+    if (vkEnumerateInstanceVersion(&version) != VK_SUCCESS || version < versionFor(options))
+        return Error{ErrorCode::unsupported, options.onlyCompute ? "no Vulkan 1.1 loader" : "no Vulkan 1.3 loader"};
 
     std::vector<VkExtensionProperties> available = instanceExtensions(nullptr);
     std::vector<const char*> layers;
@@ -286,7 +302,7 @@ Status Device::createInstance(const DeviceOptions& options) {
 
     auto application = vkStruct<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
     application.pApplicationName = "supple";
-    application.apiVersion = kInstanceVersion;
+    application.apiVersion = versionFor(options);
     auto info = vkStruct<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
     info.pApplicationInfo = &application;
 
@@ -375,6 +391,10 @@ Status Device::choosePhysicalDevice(const DeviceOptions& options) {
 }
 
 void Device::enableFeatures(const DeviceOptions& options) {
+    if (options.onlyCompute) {
+        features_ = vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+        return;
+    }
     SupportedFeatures all;
     readSupportedFeatures(physicalDevice_, all);
     const VkPhysicalDeviceFeatures& supported = all.of10.features;
@@ -472,12 +492,10 @@ Status Device::submitAndWait(const std::function<void(VkCommandBuffer)>& record)
     if (result == VK_SUCCESS)
         result = vkResetFences(device_, 1, &fence_);
     if (result == VK_SUCCESS) {
-        auto commandInfo = vkStruct<VkCommandBufferSubmitInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO);
-        commandInfo.commandBuffer = commands_;
-        auto submitInfo = vkStruct<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
-        submitInfo.commandBufferInfoCount = 1;
-        submitInfo.pCommandBufferInfos = &commandInfo;
-        result = vkQueueSubmit2(queue_, 1, &submitInfo, fence_);
+        auto submitInfo = vkStruct<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+        submitInfo.commandBufferCount = 1;
+        submitInfo.pCommandBuffers = &commands_;
+        result = vkQueueSubmit(queue_, 1, &submitInfo, fence_);
     }
     if (result == VK_SUCCESS)
         result = vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX);

@@ -30,6 +30,8 @@ struct DeviceOptions {
     /// Acceleration structures and ray queries, for SUPPLE_CONTEXT_RAY_TRACING and host/ray_scene.h. A device without
     /// them will not do.
     bool rayTracing = false;
+    /// Instance and device of Vulkan 1.1 without a feature, which is enough for Supple and not for what is drawn here.
+    bool onlyCompute = false;
     /// What suppleCreateContext is given instead of the loader's: tests count Vulkan calls through a wrapped table.
     PFN_vkGetInstanceProcAddr suppleGetInstanceProcAddr = nullptr;
 };

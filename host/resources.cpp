@@ -157,6 +157,19 @@ Result<Image> Device::createImage(const ImageDesc& desc) {
     return image;
 }
 
+namespace {
+
+/// By what Vulkan 1.1 has: buffers are read back from such devices too (DeviceOptions::onlyCompute).
+void copyBarrier(VkCommandBuffer commands, VkPipelineStageFlags before, VkAccessFlags written,
+                 VkPipelineStageFlags after, VkAccessFlags read) {
+    auto barrier = vkStruct<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+    barrier.srcAccessMask = written;
+    barrier.dstAccessMask = read;
+    vkCmdPipelineBarrier(commands, before, after, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+} // namespace
+
 Result<std::vector<std::byte>> Device::readBuffer(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
     std::vector<std::byte> bytes(size);
     if (size == 0)
@@ -165,12 +178,12 @@ Result<std::vector<std::byte>> Device::readBuffer(VkBuffer buffer, VkDeviceSize 
     if (!staging)
         return staging.error();
     const Status status = submitAndWait([&](VkCommandBuffer commands) {
-        memoryBarrier(commands, {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
-                      {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT});
+        copyBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
+                    VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
         const VkBufferCopy region{offset, 0, size};
         vkCmdCopyBuffer(commands, buffer, staging->handle(), 1, &region);
-        memoryBarrier(commands, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
-                      {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+        copyBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                    VK_ACCESS_HOST_READ_BIT);
     });
     if (!status)
         return status.error();

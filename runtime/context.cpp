@@ -87,6 +87,12 @@ Result<std::unique_ptr<Context>> Context::create(const SuppleContextDesc& desc, 
     context->device_ = std::make_unique<gpu::Device>(std::move(*device));
     const gpu::Device& d = *context->device_;
     context->device_->uploads = &context->uploads_;
+    if (d.mapping.lacksTexels) {
+        context->log(SUPPLE_SEVERITY_INFO, SUPPLE_MESSAGE_LIMIT,
+                     "suppleCreateContext: the device reads at most " +
+                         std::to_string(d.limits.maxTexelBufferElements) +
+                         " texels of a buffer, so the mapping is SUPPLE_MAPPING_WIDE");
+    }
     context->pipelines_ = std::make_unique<gpu::Pipelines>(d, runJobsOf(desc.runJobs, desc.jobsUser));
     context->kernels_ = std::make_unique<SharedKernels>(d, *context->pipelines_);
     if (const Status rooms =

@@ -1,5 +1,6 @@
 // One frame: the table of passes (kPasses), and what walks it.
 #include "runtime/frame.h"
+#include "gpu/barriers.h"
 
 #include <algorithm>
 #include <cstring>
@@ -22,15 +23,11 @@ constexpr gpu::SyncScope kFirstPasses{kCompute | kTransfer, kRead | kWrite | VK_
 constexpr gpu::SyncScope kUploaded{kFirstPasses.stages, kFirstPasses.access | VK_ACCESS_2_UNIFORM_READ_BIT};
 constexpr gpu::SyncScope kLastPasses{kCompute | kTransfer, kWrite | VK_ACCESS_2_TRANSFER_WRITE_BIT};
 
-// Stages have the same values in Vulkan 1.0, where ALL_TRANSFER is called TRANSFER.
-static_assert(kCompute == VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT && kTransfer == VK_PIPELINE_STAGE_TRANSFER_BIT);
-/// The same accesses by flags that fit the 32 bits of Vulkan 1.0, for hosts.
-constexpr VkAccessFlags2 legacyAccess(VkAccessFlags2 access) {
-    return (access & ~(kRead | kWrite)) | ((access & kRead) != 0 ? VK_ACCESS_2_SHADER_READ_BIT : 0) |
-           ((access & kWrite) != 0 ? VK_ACCESS_2_SHADER_WRITE_BIT : 0);
+/// By flags that fit the 32 bits of Vulkan 1.0.
+SuppleSyncScope hostScope(gpu::SyncScope scope) {
+    const gpu::BasicScope basic = gpu::basic(scope);
+    return {basic.stages, basic.access};
 }
-static_assert(legacyAccess(kFirstPasses.access) ==
-              (VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT));
 
 /// Linked groups in two lists.
 struct Separated {
@@ -531,11 +528,11 @@ void recordBehindUploads(const Frame& frame, Timings::Recording& timing) {
 } // namespace
 
 SuppleSyncScope Context::firstScope() {
-    return {kFirstPasses.stages, legacyAccess(kFirstPasses.access)};
+    return hostScope(kFirstPasses);
 }
 
 SuppleSyncScope Context::lastScope() {
-    return {kLastPasses.stages, legacyAccess(kLastPasses.access)};
+    return hostScope(kLastPasses);
 }
 
 const char* Context::faultOfLeader(const Group& group, uint64_t call) const {

@@ -1,4 +1,5 @@
 #include "runtime/instance_state.h"
+#include "gpu/barriers.h"
 
 #include <algorithm>
 

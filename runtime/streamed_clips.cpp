@@ -1,4 +1,5 @@
 // Clips whose segments come and go (runtime/clip_stream.h), in the frames of a context.
+#include "gpu/barriers.h"
 #include "runtime/context.h"
 
 #include <algorithm>

@@ -3,21 +3,20 @@
 namespace supple::runtime {
 
 void Transfers::add(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
-    if (buffer == VK_NULL_HANDLE) {
-        return;
+    if (buffer != VK_NULL_HANDLE) {
+        take(buffer, offset, size);
     }
-    VkBufferMemoryBarrier2 barrier = gpu::bufferBarrier(buffer);
-    barrier.offset = offset;
-    barrier.size = size;
-    barrier.srcQueueFamilyIndex = families_.compute;
-    barrier.dstQueueFamilyIndex = families_.draw;
-    take(barrier);
 }
 
-void Releases::take(const VkBufferMemoryBarrier2& barrier) {
-    barriers_[count_] = barrier;
-    barriers_[count_].srcStageMask = after_.stages;
-    barriers_[count_].srcAccessMask = after_.access;
+void Releases::take(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
+    VkBufferMemoryBarrier& barrier = barriers_[count_];
+    barrier = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER};
+    barrier.srcAccessMask = after_.access;
+    barrier.srcQueueFamilyIndex = families_.compute;
+    barrier.dstQueueFamilyIndex = families_.draw;
+    barrier.buffer = buffer;
+    barrier.offset = offset;
+    barrier.size = size;
     ++count_;
     if (count_ == kAtOnce) {
         flush();
@@ -28,18 +27,21 @@ void Releases::flush() {
     if (count_ == 0) {
         return;
     }
-    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    info.bufferMemoryBarrierCount = count_;
-    info.pBufferMemoryBarriers = barriers_.data();
-    device_.vk.CmdPipelineBarrier2(commandBuffer_, &info);
+    gpu::releaseBuffers(device_, commandBuffer_, {barriers_.data(), count_}, after_.stages);
     count_ = 0;
 }
 
-void Acquires::take(const VkBufferMemoryBarrier2& barrier) {
+void Acquires::take(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
     if (count_ < out_.size()) {
-        out_[count_] = barrier;
-        out_[count_].dstStageMask = use_.stages;
-        out_[count_].dstAccessMask = use_.access;
+        VkBufferMemoryBarrier2& barrier = out_[count_];
+        barrier = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
+        barrier.dstStageMask = use_.stages;
+        barrier.dstAccessMask = use_.access;
+        barrier.srcQueueFamilyIndex = families_.compute;
+        barrier.dstQueueFamilyIndex = families_.draw;
+        barrier.buffer = buffer;
+        barrier.offset = offset;
+        barrier.size = size;
     }
     ++count_;
 }

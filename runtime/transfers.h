@@ -1,7 +1,7 @@
 // The buffers that a frame hands from the compute queue family to the one that draws.
 #pragma once
 
-#include "gpu/device.h"
+#include "gpu/barriers.h"
 
 #include <array>
 #include <cstdint>
@@ -26,11 +26,10 @@ protected:
     Transfers& operator=(const Transfers&) = default;
     ~Transfers() = default;
 
-private:
-    /// Scopes are empty.
-    virtual void take(const VkBufferMemoryBarrier2& barrier) = 0;
-
     QueueFamilies families_;
+
+private:
+    virtual void take(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) = 0;
 };
 
 /// Records the release of each buffer, some at a time. Allocates nothing.
@@ -39,19 +38,19 @@ public:
     static constexpr size_t kAtOnce = 64; ///< barriers of a call; most groups have fewer
 
     Releases(const gpu::Device& device, VkCommandBuffer commandBuffer, QueueFamilies families, gpu::SyncScope after)
-        : Transfers(families), device_(device), commandBuffer_(commandBuffer), after_(after) {}
+        : Transfers(families), device_(device), commandBuffer_(commandBuffer), after_(basic(after)) {}
     Releases(const Releases&) = delete;
     Releases& operator=(const Releases&) = delete;
     ~Releases() { flush(); }
 
 private:
-    void take(const VkBufferMemoryBarrier2& barrier) override;
+    void take(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) override;
     void flush();
 
     const gpu::Device& device_;
     VkCommandBuffer commandBuffer_;
-    gpu::SyncScope after_;
-    std::array<VkBufferMemoryBarrier2, kAtOnce> barriers_{};
+    gpu::BasicScope after_;
+    std::array<VkBufferMemoryBarrier, kAtOnce> barriers_{};
     uint32_t count_ = 0;
 };
 
@@ -64,7 +63,7 @@ public:
     [[nodiscard]] uint32_t count() const { return count_; }
 
 private:
-    void take(const VkBufferMemoryBarrier2& barrier) override;
+    void take(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) override;
 
     gpu::SyncScope use_;
     std::span<VkBufferMemoryBarrier2> out_;

@@ -1,5 +1,6 @@
 #include "runtime/view.h"
 
+#include "gpu/barriers.h"
 #include "runtime/culling/bounds_kernels.h"
 #include "surface/lod/grid.h"
 #include "surface/lod/tables.h"

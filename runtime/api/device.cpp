@@ -79,11 +79,10 @@ SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physi
         if (instance == VK_NULL_HANDLE || physicalDevice == VK_NULL_HANDLE || getInstanceProcAddr == nullptr) {
             return refused("instance, physicalDevice or getInstanceProcAddr is null");
         }
-        const gpu::Requirements requirements = gpu::requirements();
         SuppleRequirements filled{};
-        filled.apiVersion = requirements.apiVersion;
-        filled.features12 = requirements.features12;
-        filled.features13 = requirements.features13;
+        filled.apiVersion = gpu::kVulkanVersion;
+        filled.features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+        filled.features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
         SuppleRequirements given{};
         if (!runtime::readSized(*out, given)) { // in a newer struct the rest may hold anything
             std::memcpy(&given, out, sizeof(given));
@@ -95,6 +94,9 @@ SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalDevice physi
             gpu::missingInInstance(instance, physicalDevice, getInstanceProcAddr, given.instanceVersion);
         if (missing.empty()) {
             missing = gpu::missingRequirement(instance, physicalDevice, getInstanceProcAddr);
+        }
+        if (missing.empty() && (given.contextFlags & SUPPLE_CONTEXT_SHARED_DISPATCHES) != 0) {
+            missing = gpu::missingForAddresses(instance, physicalDevice, getInstanceProcAddr);
         }
         if (missing.empty() && tracesRays) {
             missing = gpu::missingForRayTracing(instance, physicalDevice, getInstanceProcAddr);

@@ -1,5 +1,6 @@
 #include "runtime/recording/stage_hashes.h"
 
+#include "gpu/barriers.h"
 #include "gpu/device.h"
 #include "shaders/recording_records_comp.h"
 #include "shaders/recording_words_comp.h"

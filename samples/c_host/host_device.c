@@ -45,7 +45,7 @@ static void createInstance(HostDevice* host, int validate) {
     VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
 
     application.pApplicationName = "supple_c_host";
-    application.apiVersion = VK_API_VERSION_1_3;
+    application.apiVersion = VK_API_VERSION_1_1;
     info.pApplicationInfo = &application;
     if (validate) {
         features.enabledValidationFeatureCount = 1;
@@ -66,9 +66,10 @@ static void createInstance(HostDevice* host, int validate) {
     }
 }
 
-/* The first device that Supple can use; requirements is left filled for it. */
+/* The first device that Supple can use. */
 static void pickPhysicalDevice(HostDevice* host) {
     VkPhysicalDevice devices[16];
+    SuppleRequirements requirements = {.structSize = sizeof requirements, .instanceVersion = VK_API_VERSION_1_1};
     uint32_t count = 16;
     uint32_t i;
     const VkResult result = vkEnumeratePhysicalDevices(host->instance, &count, devices);
@@ -76,14 +77,11 @@ static void pickPhysicalDevice(HostDevice* host) {
         count = 0;
     }
     for (i = 0; i < count; ++i) {
-        host->requirements.structSize = sizeof host->requirements;
-        host->requirements.instanceVersion = VK_API_VERSION_1_3;
-        if (suppleQueryRequirements(host->instance, devices[i], vkGetInstanceProcAddr, &host->requirements) ==
-            SUPPLE_OK) {
+        if (suppleQueryRequirements(host->instance, devices[i], vkGetInstanceProcAddr, &requirements) == SUPPLE_OK) {
             host->physicalDevice = devices[i];
             return;
         }
-        fprintf(stderr, "device %u will not do: %s\n", i, host->requirements.reason);
+        fprintf(stderr, "device %u will not do: %s\n", i, requirements.reason);
     }
     fprintf(stderr, "no suitable Vulkan device\n");
     exit(3);
@@ -102,8 +100,8 @@ static void pickQueueFamily(HostDevice* host) {
     exit(3);
 }
 
-/* A device with exactly what Supple asks for: its feature structs are chained as they are. A host adds what it needs
- * itself, and hands the same chain to SuppleContextDesc.enabledFeatures. */
+/* A device without any feature: Supple asks for none. A host adds what it needs itself, and hands that chain to
+ * SuppleContextDesc.enabledFeatures. */
 static void createDevice(HostDevice* host) {
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -111,8 +109,6 @@ static void createDevice(HostDevice* host) {
     queue.queueFamilyIndex = host->queueFamily;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    host->requirements.features12.pNext = &host->requirements.features13;
-    info.pNext = &host->requirements.features12;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     CHECK_VK(vkCreateDevice(host->physicalDevice, &info, host->callbacks, &host->device));

@@ -1,4 +1,4 @@
-/* The host's Vulkan: instance, device, queue, pipeline cache. Nothing of it is Supple's but the requirements. */
+/* The host's Vulkan: instance, device, queue, pipeline cache. Nothing of it is Supple's. */
 #ifndef HOST_DEVICE_H
 #define HOST_DEVICE_H
 
@@ -31,7 +31,6 @@ typedef struct HostDevice {
     VkInstance instance;
     VkDebugUtilsMessengerEXT messenger; /* null without validation */
     VkPhysicalDevice physicalDevice;
-    SuppleRequirements requirements; /* features12 begins the chain that vkCreateDevice was given */
     uint32_t queueFamily;
     VkDevice device;
     VkQueue queue;

@@ -210,8 +210,7 @@ static void recordCrowd(void* user) {
     const SuppleInstance guest = crowd->guests[parity];
     const VkCommandBuffer commands = job->commands[parity];
     VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    VkMemoryBarrier2 toHost = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    VkDependencyInfo dependency = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    VkMemoryBarrier toHost = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER};
     SuppleRecordDesc record = {0};
 
     place(job, crowd->resident, 0.0f);
@@ -224,20 +223,17 @@ static void recordCrowd(void* user) {
     record.flags = SUPPLE_RECORD_TIMINGS;
     record.groups = &crowd->group;
     record.groupCount = 1;
-    record.before.stages = VK_PIPELINE_STAGE_2_COPY_BIT; /* the last frame's copies read before we overwrite */
-    record.before.access = VK_ACCESS_2_TRANSFER_READ_BIT;
-    record.after.stages = VK_PIPELINE_STAGE_2_COPY_BIT;
-    record.after.access = VK_ACCESS_2_TRANSFER_READ_BIT;
+    record.before.stages = VK_PIPELINE_STAGE_TRANSFER_BIT; /* the last frame's copies read before we overwrite */
+    record.before.access = VK_ACCESS_TRANSFER_READ_BIT;
+    record.after.stages = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    record.after.access = VK_ACCESS_TRANSFER_READ_BIT;
     CHECK_SUPPLE(suppleRecord(job->context, commands, &record));
     copyFirstVertex(job, commands, crowd->resident, 0);
     copyFirstVertex(job, commands, guest, 1);
-    toHost.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-    toHost.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    toHost.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-    toHost.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &toHost;
-    vkCmdPipelineBarrier2(commands, &dependency);
+    toHost.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    toHost.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &toHost, 0, NULL,
+                         0, NULL);
     CHECK_VK(vkEndCommandBuffer(commands));
 }
 
@@ -357,7 +353,6 @@ static SuppleContext createContext(const HostDevice* host, HostAllocator memory)
     desc.allocator = host->callbacks;
     desc.framesInFlight = FRAMES_IN_FLIGHT;
     desc.log = onLog;
-    desc.enabledFeatures = &host->requirements.features12;
     desc.memory = &callbacks;
     desc.runJobs = runHostJobs;
     CHECK_SUPPLE(suppleCreateContext(&desc, &context));

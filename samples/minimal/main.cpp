@@ -47,7 +47,7 @@ VkInstance createInstance(VkDebugUtilsMessengerEXT& messenger) {
     const VkValidationFeaturesEXT features{
         VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, nullptr, 1, &synchronization, 0, {}};
     const VkApplicationInfo application{
-        VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "minimal", 0, nullptr, 0, VK_API_VERSION_1_3};
+        VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "minimal", 0, nullptr, 0, VK_API_VERSION_1_1};
     const VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                     validate ? &features : nullptr,
                                     0,
@@ -189,9 +189,9 @@ int main(int argc, char** argv) {
     contextDesc.getInstanceProcAddr = vkGetInstanceProcAddr;
     contextDesc.log = onLog;
 
-    // The first device that Supple can use, with exactly the features that it asks for.
+    // The first device that Supple can use. No feature need be enabled.
     auto requirements = supple::sized<SuppleRequirements>();
-    requirements.instanceVersion = VK_API_VERSION_1_3;
+    requirements.instanceVersion = VK_API_VERSION_1_1;
     VkPhysicalDevice gpus[16];
     uint32_t gpuCount = 16, chosen = 0;
     vkEnumeratePhysicalDevices(instance, &gpuCount, gpus);
@@ -201,8 +201,6 @@ int main(int argc, char** argv) {
     if (chosen == gpuCount)
         return 3;
     contextDesc.physicalDevice = gpus[chosen];
-    requirements.features12.pNext = &requirements.features13;
-    contextDesc.enabledFeatures = &requirements.features12;
 
     VkQueueFamilyProperties families[16];
     uint32_t familyCount = 16;
@@ -212,8 +210,7 @@ int main(int argc, char** argv) {
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queueInfo{
         VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, contextDesc.queueFamily, 1, &priority};
-    const VkDeviceCreateInfo deviceInfo{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, contextDesc.enabledFeatures, 0, 1,
-                                        &queueInfo};
+    const VkDeviceCreateInfo deviceInfo{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, nullptr, 0, 1, &queueInfo};
     check(vkCreateDevice(contextDesc.physicalDevice, &deviceInfo, nullptr, &contextDesc.device), "vkCreateDevice");
     VkQueue queue = VK_NULL_HANDLE;
     vkGetDeviceQueue(contextDesc.device, contextDesc.queueFamily, 0, &queue);

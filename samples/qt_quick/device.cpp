@@ -71,7 +71,9 @@ void Device::create() {
     features_.features.robustBufferAccess = VK_FALSE;
     features_.pNext = &requirements_.features12;
     requirements_.features12.pNext = &requirements_.features13;
-    requirements_.features13.dynamicRendering = VK_TRUE; // the sample's own passes
+    // The sample's own passes.
+    requirements_.features13.dynamicRendering = VK_TRUE;
+    requirements_.features13.synchronization2 = VK_TRUE;
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = queueFamily_;

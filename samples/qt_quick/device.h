@@ -1,4 +1,4 @@
-// The device. Qt would create one without the features that Supple needs, so the application creates it, and Qt's scene
+// The device. Qt would create one without the features that the sample needs, so the application creates it, and Qt's scene
 // graph and Supple both borrow it. Nobody but Qt submits.
 #pragma once
 

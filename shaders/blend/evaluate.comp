@@ -5,7 +5,6 @@
 // a side.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #include "shaders/surface/tables.glsl"

@@ -9,7 +9,6 @@
 //                        the narrow mapping takes a patch
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #define OWN_WIDE

@@ -3,7 +3,7 @@
 layout(constant_id = kVertexFormatConstant) const uint kVertexFormat = kVertex16;
 
 BUFFER(writeonly, Surface16, kSurfaceBinding, std430, uvec4, surface16)
-BUFFER(writeonly, SurfaceVectors, kSurfaceBinding, scalar, vec3, surfaceVectors)
+BUFFER(writeonly, SurfaceFloats, kSurfaceBinding, std430, float, surfaceFloats)
 
 layout(constant_id = kTangentsConstant) const bool kTangents = false;
 BUFFER(writeonly, Tangents, kTangentBinding, std430, uint, tangents)
@@ -44,14 +44,21 @@ void setPast(bool isNew) {
         pastStep = isNew ? vec3(0.0) : vec3(push.window.pastX, push.window.pastY, push.window.pastZ);
 }
 
+// Three floats one behind the other: vectors of three would need the feature scalarBlockLayout to lie so densely.
+void storeVector(uint at, vec3 v) {
+    surfaceFloats.at[3u * at] = v.x;
+    surfaceFloats.at[3u * at + 1u] = v.y;
+    surfaceFloats.at[3u * at + 2u] = v.z;
+}
+
 // `normal`: of any length; a vanishing one stays zero instead of becoming NaN.
 void storeSurfaceVertex(uint vertex, vec3 position, vec3 normal) {
     if (kVertexFormat == kVertexPosition) {
         precise vec3 past = position - pastStep; // the same bits if that is zero
-        surfaceVectors.at[vertex] = past;
+        storeVector(vertex, past);
     } else if (kVertexFormat == kVertex24) {
-        surfaceVectors.at[2u * vertex] = position;
-        surfaceVectors.at[2u * vertex + 1u] = unitNormal(normal);
+        storeVector(2u * vertex, position);
+        storeVector(2u * vertex + 1u, unitNormal(normal));
     } else {
         surface16.at[vertex] = uvec4(floatBitsToUint(position), encodeOctahedral(normal));
     }
@@ -74,6 +81,6 @@ uvec3 normalWords(vec3 normal) {
 void storePosition(uint vertex, vec3 position, uint word) {
     if (kVertexFormat == kVertex16) surface16.at[vertex] = uvec4(floatBitsToUint(position), word);
     else if (kVertexFormat == kVertexPosition) storeSurfaceVertex(vertex, position, vec3(0.0));
-    else surfaceVectors.at[kVertexStores * vertex] = position;
+    else storeVector(kVertexStores * vertex, position);
 }
-void storeNormal(uint vertex, uvec3 words) { surfaceVectors.at[kVertexStores * vertex + 1u] = uintBitsToFloat(words); }
+void storeNormal(uint vertex, uvec3 words) { storeVector(kVertexStores * vertex + 1u, uintBitsToFloat(words)); }

@@ -2,7 +2,6 @@
 // sample, fragment and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 #define POOL_READ_ONLY
 #define PUSH_CONSTANTS FragmentPush
 #include "shaders/shared/subdivision.h"

@@ -3,7 +3,6 @@
 // Narrow mapping: one lane per side. Wide mapping: one lane per sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #define PUSH_CONSTANTS EdgePush

@@ -5,7 +5,6 @@
 // the wide mapping, and irregular triangles at levels: sample by sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #ifdef LEVELS

@@ -8,7 +8,6 @@
 // positions agree bit for bit. At levels samples lie in rings, where the patch's record says (docs/lod.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define POOL_READ_ONLY
 #ifdef LEVELS

@@ -1,7 +1,6 @@
 // Polygons, evaluation: surface vertices from the frames of cage vertices. One invocation per surface vertex and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
 #define POOL_READ_ONLY
 #define PUSH_CONSTANTS FragmentPush
 #include "shaders/shared/subdivision.h"

@@ -1,4 +1,4 @@
-// What a device must offer, what it is asked for, and the barriers between passes.
+// What a device must offer, and what it is asked for.
 #include "gpu/device.h"
 #include "tests/gpu/fake_vulkan.h"
 
@@ -8,25 +8,12 @@
 namespace supple::gpu {
 namespace {
 
-TEST(Device, NamesTheFirstFeatureThatIsNotEnabled) {
-    EXPECT_EQ(disabledFeature(nullptr), "scalarBlockLayout");
-
-    Requirements needed = requirements();
-    needed.features12.pNext = &needed.features13;
-    EXPECT_EQ(disabledFeature(&needed.features12), "");
-
-    needed.features13.maintenance4 = VK_FALSE;
-    EXPECT_EQ(disabledFeature(&needed.features12), "maintenance4");
-    needed.features13.synchronization2 = VK_FALSE;
-    EXPECT_EQ(disabledFeature(&needed.features12), "synchronization2");
-}
-
 TEST(Device, NamesTheEntryPointThatIsMissing) {
     const auto nothing = [](VkInstance, const char*) -> PFN_vkVoidFunction { return nullptr; };
-    const std::string text = "the VkInstance must be created with apiVersion 1.3 or more: this one has ";
+    const std::string text = "the VkInstance must be created with apiVersion 1.1 or more: this one has ";
     EXPECT_EQ(missingInInstance(VK_NULL_HANDLE, VK_NULL_HANDLE, nothing, 0),
               text + "no vkGetPhysicalDeviceProperties2");
-    EXPECT_EQ(missingInInstance(VK_NULL_HANDLE, VK_NULL_HANDLE, nothing, VK_API_VERSION_1_1), text + "1.1");
+    EXPECT_EQ(missingInInstance(VK_NULL_HANDLE, VK_NULL_HANDLE, nothing, VK_API_VERSION_1_0), text + "1.0");
 
     const auto allButOne = [](VkInstance, const char* name) -> PFN_vkVoidFunction {
         return std::string(name) == "vkGetDeviceProcAddr" ? nullptr : reinterpret_cast<PFN_vkVoidFunction>(1);
@@ -53,29 +40,6 @@ TEST(Device, WindowsFitEveryDescriptor) {
     EXPECT_EQ(device.bufferWindow(128), 1000000u) << "narrow: the storage buffer ends first";
     device.mapping.wide = true;
     EXPECT_EQ(device.bufferWindow(4), 1000000u) << "wide: none are";
-}
-
-TEST(Device, DisjointWritesNeedABarrierWhereTexelsAreRead) {
-    test::FakeVulkan vulkan;
-    disjointBarrier(vulkan.device, test::kCommands);
-    EXPECT_EQ(vulkan.barriers.size(), 1u);
-    vulkan.device.mapping.wide = true;
-    disjointBarrier(vulkan.device, test::kCommands);
-    EXPECT_EQ(vulkan.barriers.size(), 1u);
-}
-
-TEST(Device, ComputeSeesWhatComputeWrote) {
-    test::FakeVulkan vulkan;
-    vulkan.device.mapping.wide = true;
-    computeBarrier(vulkan.device, test::kCommands);
-    ASSERT_EQ(vulkan.barriers.size(), 1u);
-    const VkMemoryBarrier2& barrier = vulkan.barriers[0];
-    EXPECT_EQ(barrier.srcStageMask, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
-    EXPECT_EQ(barrier.dstStageMask, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
-    EXPECT_EQ(barrier.srcAccessMask, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    constexpr VkAccessFlags2 kTexels = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    EXPECT_EQ(barrier.dstAccessMask,
-              kTexels | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
 } // namespace

@@ -139,17 +139,24 @@ VKAPI_ATTR void VKAPI_CALL copyQueryPoolResults(VkCommandBuffer, VkQueryPool, ui
                     &fake->queryResults.at(2 * (size_t{first} + i)), 2 * sizeof(uint64_t));
     }
 }
-VKAPI_ATTR void VKAPI_CALL writeTimestamp(VkCommandBuffer, VkPipelineStageFlags2, VkQueryPool, uint32_t) {}
+VKAPI_ATTR void VKAPI_CALL writeTimestamp(VkCommandBuffer, VkPipelineStageFlagBits, VkQueryPool, uint32_t) {}
 VKAPI_ATTR void VKAPI_CALL resetQueryPool(VkCommandBuffer, VkQueryPool, uint32_t first, uint32_t count) {
     const std::lock_guard lock(fake->mutex);
     fake->resets.emplace_back(first, count);
 }
-VKAPI_ATTR void VKAPI_CALL pipelineBarrier(VkCommandBuffer, const VkDependencyInfo* dependency) {
-    fake->barriers.insert(fake->barriers.end(), dependency->pMemoryBarriers,
-                          dependency->pMemoryBarriers + dependency->memoryBarrierCount);
-    if (dependency->bufferMemoryBarrierCount > 0) {
-        fake->bufferBarriers.emplace_back(dependency->pBufferMemoryBarriers,
-                                          dependency->pBufferMemoryBarriers + dependency->bufferMemoryBarrierCount);
+VKAPI_ATTR void VKAPI_CALL pipelineBarrier(VkCommandBuffer, VkPipelineStageFlags before, VkPipelineStageFlags after,
+                                           VkDependencyFlags, uint32_t count, const VkMemoryBarrier* barriers,
+                                           uint32_t bufferCount, const VkBufferMemoryBarrier* buffers, uint32_t,
+                                           const VkImageMemoryBarrier*) {
+    for (uint32_t i = 0; i < count; ++i) {
+        fake->barriers.push_back({before, after, barriers[i]});
+    }
+    if (bufferCount > 0) {
+        std::vector<BufferBarrier> call;
+        for (uint32_t i = 0; i < bufferCount; ++i) {
+            call.push_back({before, after, buffers[i]});
+        }
+        fake->bufferBarriers.push_back(std::move(call));
     }
 }
 VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer, uint32_t x, uint32_t y, uint32_t) {
@@ -202,9 +209,9 @@ FakeVulkan::FakeVulkan() {
     vk.DestroyQueryPool = destroyQueryPool;
     vk.GetQueryPoolResults = queryPoolResults;
     vk.CmdCopyQueryPoolResults = copyQueryPoolResults;
-    vk.CmdWriteTimestamp2 = writeTimestamp;
+    vk.CmdWriteTimestamp = writeTimestamp;
     vk.CmdResetQueryPool = resetQueryPool;
-    vk.CmdPipelineBarrier2 = pipelineBarrier;
+    vk.CmdPipelineBarrier = pipelineBarrier;
     vk.CmdDispatch = dispatch;
     vk.CmdCopyBuffer = copyBuffer;
     vk.GetBufferDeviceAddress = bufferAddress;

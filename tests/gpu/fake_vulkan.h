@@ -13,6 +13,16 @@
 
 namespace supple::gpu::test {
 
+/// Barriers with the stages of the call that has them.
+struct GlobalBarrier {
+    VkPipelineStageFlags before = 0, after = 0;
+    VkMemoryBarrier barrier{};
+};
+struct BufferBarrier {
+    VkPipelineStageFlags before = 0, after = 0;
+    VkBufferMemoryBarrier barrier{};
+};
+
 struct FakeVulkan {
     FakeVulkan();
     ~FakeVulkan();
@@ -52,9 +62,9 @@ struct FakeVulkan {
     std::vector<std::pair<VkBuffer, VkBuffer>> copies;       ///< from, to
     std::vector<std::vector<VkBufferCopy>> copiedRegions;    ///< of each of the copies
     std::vector<std::pair<uint32_t, uint32_t>> dispatches;   ///< x, y
-    std::vector<VkMemoryBarrier2> barriers;                  ///< global ones
-    /// Barriers of buffers, by vkCmdPipelineBarrier2 that has any.
-    std::vector<std::vector<VkBufferMemoryBarrier2>> bufferBarriers;
+    std::vector<GlobalBarrier> barriers;
+    /// By vkCmdPipelineBarrier that has any.
+    std::vector<std::vector<BufferBarrier>> bufferBarriers;
     std::vector<std::pair<uint32_t, uint32_t>> resets; ///< of queries: first, count
     std::mutex mutex;                                  ///< of `resets`
 };

@@ -91,7 +91,7 @@ TEST(Timers, OfLazyTimestampsAreCopiedByTheCommandBuffer) {
     timers->mark(test::kCommands, first + 1);
     timers->finish(test::kCommands, first, 2);
     ASSERT_EQ(vulkan.barriers.size(), 3u);
-    EXPECT_EQ(vulkan.barriers[2].dstStageMask, VK_PIPELINE_STAGE_2_HOST_BIT);
+    EXPECT_EQ(vulkan.barriers[2].after, VkPipelineStageFlags{VK_PIPELINE_STAGE_HOST_BIT});
     const auto available = [&] {
         std::vector<uint64_t> values;
         const Result<std::span<const Timers::Tick>> ticks = timers->read();

@@ -1,5 +1,4 @@
-// Devices that are lost, and devices that were created without what Supple needs.
-#include "gpu/device.h"
+// Devices that are lost.
 #include "tests/support/gpu_surface.h"
 #include "tests/support/logged_context.h"
 #include "tests/support/wrapped_vulkan.h"
@@ -123,66 +122,6 @@ TEST(DeviceLost, StaysLostForTheContextAndForNoOther) {
     }
     device = nullptr;
     EXPECT_EQ(validation->messageCount(), 0u) << "something leaked";
-}
-
-/// A chain as a host hands it to vkCreateDevice; `without` is off.
-class Chain {
-public:
-    Chain(bool oneByOne, const std::string& without) {
-        features12_.scalarBlockLayout = scalar_.scalarBlockLayout = without != "scalarBlockLayout";
-        features13_.synchronization2 = synchronization2_.synchronization2 = without != "synchronization2";
-        features13_.maintenance4 = maintenance4_.maintenance4 = without != "maintenance4";
-        // Something that Supple does not know stands between.
-        ycbcr_.pNext = oneByOne ? static_cast<void*>(&scalar_) : static_cast<void*>(&features12_);
-        features2_.pNext = &ycbcr_;
-        features12_.pNext = &features13_;
-        scalar_.pNext = &maintenance4_;
-        maintenance4_.pNext = &synchronization2_;
-    }
-    Chain(const Chain&) = delete;
-    Chain& operator=(const Chain&) = delete;
-    [[nodiscard]] const void* first() const { return &features2_; }
-
-private:
-    VkPhysicalDeviceFeatures2 features2_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    VkPhysicalDeviceSamplerYcbcrConversionFeatures ycbcr_{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SAMPLER_YCBCR_CONVERSION_FEATURES};
-    VkPhysicalDeviceVulkan12Features features12_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceVulkan13Features features13_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    VkPhysicalDeviceScalarBlockLayoutFeatures scalar_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES};
-    VkPhysicalDeviceSynchronization2Features synchronization2_{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
-    VkPhysicalDeviceMaintenance4Features maintenance4_{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES};
-};
-
-TEST(EnabledFeatures, WhatTheHostDidNotEnableIsNamed) {
-    host::Device* device = testDevice();
-    ASSERT_NE(device, nullptr);
-    const ValidationGuard guard;
-    for (const bool oneByOne : {false, true}) {
-        for (const char* feature : {"scalarBlockLayout", "synchronization2", "maintenance4"}) {
-            const Chain chain(oneByOne, feature);
-            LoggedContext context(*device, [&](SuppleContextDesc& desc) { desc.enabledFeatures = chain.first(); });
-            EXPECT_EQ(context.result(), SUPPLE_ERROR_UNSUPPORTED) << feature;
-            EXPECT_EQ(context.handle(), nullptr);
-            const std::vector<LogLine> lines = context.takeLines();
-            ASSERT_EQ(lines.size(), 1u) << feature;
-            EXPECT_EQ(lines[0].severity, SUPPLE_SEVERITY_ERROR);
-            EXPECT_EQ(lines[0].message, SUPPLE_MESSAGE_FEATURE_DISABLED);
-            EXPECT_NE(lines[0].text.find(feature), std::string::npos) << lines[0].text;
-        }
-        EXPECT_EQ(gpu::disabledFeature(Chain(oneByOne, "").first()), "");
-    }
-    // An empty chain enables nothing; none at all is taken on trust.
-    const VkPhysicalDeviceFeatures2 empty{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr, {}};
-    LoggedContext nothing(*device, [&](SuppleContextDesc& desc) { desc.enabledFeatures = &empty; });
-    EXPECT_EQ(nothing.result(), SUPPLE_ERROR_UNSUPPORTED);
-    EXPECT_EQ(nothing.takeCount(SUPPLE_MESSAGE_FEATURE_DISABLED), 1u);
-    const Chain chain(true, "");
-    for (const void* good : {static_cast<const void*>(nullptr), chain.first()}) {
-        const LoggedContext context(*device, [&](SuppleContextDesc& desc) { desc.enabledFeatures = good; });
-        EXPECT_EQ(context.result(), SUPPLE_OK);
-    }
 }
 
 } // namespace

@@ -145,16 +145,18 @@ Refusal makeContext(host::Device& device, const std::function<void(SuppleContext
 
 std::vector<EarlyMistake> earlyMistakes() {
     return {
-        {"the VkInstance is of Vulkan 1.2, and `instanceVersion` says so",
-         [](host::Device& d) { return askRequirements(d, sizeof(SuppleRequirements), VK_API_VERSION_1_2); }},
+        {"the VkInstance is of Vulkan 1.0, and `instanceVersion` says so",
+         [](host::Device& d) { return askRequirements(d, sizeof(SuppleRequirements), VK_API_VERSION_1_0); }},
         {"`structSize` of `SuppleRequirements` is not set", [](host::Device& d) { return askRequirements(d, 0, 0); }},
         {"`structSize` of `SuppleContextDesc` is not set",
          [](host::Device& d) { return makeContext(d, [](SuppleContextDesc& desc) { desc.structSize = 0; }); }},
-        {"the device was created without a feature",
+        {"the device was created without a feature that a flag needs",
          [](host::Device& d) {
              return makeContext(d, [](SuppleContextDesc& desc) {
                  static VkPhysicalDeviceVulkan12Features none{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
                  desc.enabledFeatures = &none;
+                 desc.mapping = SUPPLE_MAPPING_WIDE;
+                 desc.flags = SUPPLE_CONTEXT_SHARED_DISPATCHES;
              });
          }},
         {"the memory callbacks lack `free`",

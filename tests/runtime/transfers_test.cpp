@@ -22,7 +22,8 @@ void addBuffers(Transfers& transfers, uint64_t count) {
     }
 }
 
-void expectBuffer(const VkBufferMemoryBarrier2& barrier, uint64_t number) {
+template <class Barrier>
+void expectBuffer(const Barrier& barrier, uint64_t number) {
     EXPECT_EQ(barrier.buffer, bufferNumber(number));
     EXPECT_EQ(barrier.offset, 4 * number);
     EXPECT_EQ(barrier.size, VK_WHOLE_SIZE);
@@ -39,13 +40,14 @@ TEST(Transfers, AnyNumberIsReleasedEachOnce) {
             addBuffers(releases, count);
         }
         uint64_t number = 0;
-        for (const std::vector<VkBufferMemoryBarrier2>& call : fake.bufferBarriers) {
+        for (const std::vector<gpu::test::BufferBarrier>& call : fake.bufferBarriers) {
             EXPECT_LE(call.size(), Releases::kAtOnce);
-            for (const VkBufferMemoryBarrier2& barrier : call) {
-                expectBuffer(barrier, ++number);
-                EXPECT_EQ(barrier.srcStageMask, VK_PIPELINE_STAGE_2_COPY_BIT);
-                EXPECT_EQ(barrier.srcAccessMask, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-                EXPECT_EQ(barrier.dstStageMask, VK_PIPELINE_STAGE_2_NONE);
+            for (const gpu::test::BufferBarrier& release : call) {
+                expectBuffer(release.barrier, ++number);
+                EXPECT_EQ(release.before, VkPipelineStageFlags{VK_PIPELINE_STAGE_TRANSFER_BIT});
+                EXPECT_EQ(release.barrier.srcAccessMask, VkAccessFlags{VK_ACCESS_TRANSFER_WRITE_BIT});
+                EXPECT_EQ(release.after, VkPipelineStageFlags{VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT});
+                EXPECT_EQ(release.barrier.dstAccessMask, VkAccessFlags{0});
             }
         }
         EXPECT_EQ(number, count);

@@ -460,7 +460,7 @@ std::vector<uint32_t> compileCopy(const std::string& path, const std::string& fl
     fs::copy(fs::path(SUPPLE_SOURCE_DIR) / "shaders", root / "shaders", fs::copy_options::recursive);
     edit(root / "shaders");
     const fs::path output = root / "out.spv";
-    const std::string command = std::string(SUPPLE_GLSLANG_COMMAND) + " --quiet -g -V --target-env vulkan1.3 -I" +
+    const std::string command = std::string(SUPPLE_GLSLANG_COMMAND) + " --quiet -g -V --target-env vulkan1.1 -I" +
                                 root.string() + flags + " -o " + output.string() + " " +
                                 (root / "shaders" / path).string();
     EXPECT_EQ(std::system(command.c_str()), 0) << command;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <string_view>
 
 namespace supple::test {
 
@@ -19,7 +20,7 @@ struct Table {
     PFN_vkCmdBindPipeline CmdBindPipeline;
     PFN_vkCmdDispatch CmdDispatch;
     PFN_vkCmdDispatchIndirect CmdDispatchIndirect;
-    PFN_vkCmdPipelineBarrier2 CmdPipelineBarrier2;
+    PFN_vkCmdPipelineBarrier CmdPipelineBarrier;
     PFN_vkCmdUpdateBuffer CmdUpdateBuffer;
     PFN_vkCmdCopyBuffer2 CmdCopyBuffer2;
     PFN_vkInvalidateMappedMemoryRanges InvalidateMappedMemoryRanges;
@@ -91,11 +92,15 @@ VKAPI_ATTR void VKAPI_CALL dispatchIndirect(VkCommandBuffer commands, VkBuffer b
     ++state.indirectDispatches;
     real.CmdDispatchIndirect(commands, buffer, offset);
 }
-VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer commands, const VkDependencyInfo* info) {
-    state.bufferBarriers.insert(state.bufferBarriers.end(), info->pBufferMemoryBarriers,
-                                info->pBufferMemoryBarriers + info->bufferMemoryBarrierCount);
+VKAPI_ATTR void VKAPI_CALL barrier(VkCommandBuffer commands, VkPipelineStageFlags before, VkPipelineStageFlags after,
+                                   VkDependencyFlags flags, uint32_t count, const VkMemoryBarrier* global,
+                                   uint32_t bufferCount, const VkBufferMemoryBarrier* buffers, uint32_t imageCount,
+                                   const VkImageMemoryBarrier* images) {
+    state.bufferBarriers.insert(state.bufferBarriers.end(), buffers, buffers + bufferCount);
+    state.bufferBarrierStages.insert(state.bufferBarrierStages.end(), bufferCount, {before, after});
     if (static_cast<int64_t>(state.barriers++) != state.dropBarrier) {
-        real.CmdPipelineBarrier2(commands, info);
+        real.CmdPipelineBarrier(commands, before, after, flags, count, global, bufferCount, buffers, imageCount,
+                                images);
     }
 }
 VKAPI_ATTR void VKAPI_CALL updateBuffer(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset,
@@ -133,8 +138,27 @@ VKAPI_ATTR void VKAPI_CALL copyQueryResults(VkCommandBuffer commands, VkQueryPoo
     ++state.queryCopies;
     real.CmdCopyQueryPoolResults(commands, pool, first, count, target, offset, stride, flags);
 }
+bool isOld() {
+    return state.apiVersion != 0 && state.apiVersion < VK_API_VERSION_1_2;
+}
+/// Whether a device of Vulkan 1.1 has no such function.
+bool isHidden(std::string_view name) {
+    return isOld() && (name.ends_with("KHR") || name == "vkGetBufferDeviceAddress" ||
+                       (name.starts_with("vkCmd") && name.ends_with("2")));
+}
+/// Counts the structs that a device of Vulkan 1.1 does not know.
+void countUnknown(const void* chain) {
+    for (const auto* next = static_cast<const VkBaseInStructure*>(chain); next != nullptr; next = next->pNext) {
+        const bool known = next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+        state.unknownStructs += isOld() && !known ? 1 : 0;
+    }
+}
 VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
+    countUnknown(out->pNext);
     real.GetPhysicalDeviceProperties2(device, out);
+    if (state.apiVersion != 0) {
+        out->properties.apiVersion = state.apiVersion;
+    }
     VkPhysicalDeviceLimits& limits = out->properties.limits;
     if (state.maxStorageBufferRange != 0) {
         limits.maxStorageBufferRange = state.maxStorageBufferRange;
@@ -150,15 +174,8 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceP
     }
 }
 VKAPI_ATTR void VKAPI_CALL features(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* out) {
+    countUnknown(out->pNext);
     real.GetPhysicalDeviceFeatures2(device, out);
-    if (!state.hideSynchronization2) {
-        return;
-    }
-    for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next != nullptr; next = next->pNext) {
-        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
-            reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(next)->synchronization2 = VK_FALSE;
-        }
-    }
 }
 
 /// Keeps the real function and hands out ours.
@@ -169,6 +186,9 @@ PFN_vkVoidFunction wrap(F& slot, PFN_vkVoidFunction function, F ours) {
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
+    if (isHidden(name)) {
+        return nullptr;
+    }
     const PFN_vkVoidFunction function = real.GetDeviceProcAddr(device, name);
     const auto is = [&](const char* other) { return std::strcmp(name, other) == 0; };
     if (is("vkMapMemory")) {
@@ -198,8 +218,8 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     if (is("vkCmdDispatchIndirect")) {
         return wrap(real.CmdDispatchIndirect, function, &dispatchIndirect);
     }
-    if (is("vkCmdPipelineBarrier2")) {
-        return wrap(real.CmdPipelineBarrier2, function, &barrier);
+    if (is("vkCmdPipelineBarrier")) {
+        return wrap(real.CmdPipelineBarrier, function, &barrier);
     }
     if (is("vkCmdUpdateBuffer")) {
         return wrap(real.CmdUpdateBuffer, function, &updateBuffer);

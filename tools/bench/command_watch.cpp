@@ -11,7 +11,7 @@ struct WatchedRecording {
     PFN_vkGetDeviceProcAddr getDeviceProcAddr;
     PFN_vkCmdDispatch dispatch;
     PFN_vkCmdDispatchIndirect dispatchIndirect;
-    PFN_vkCmdPipelineBarrier2 pipelineBarrier;
+    PFN_vkCmdPipelineBarrier pipelineBarrier;
     PFN_vkCmdCopyBuffer copyBuffer;
     PFN_vkCmdCopyBuffer2 copyBuffer2;
     PFN_vkCmdFillBuffer fillBuffer;
@@ -36,9 +36,14 @@ struct WatchedRecording {
         count(&WatchedCommands::dispatches);
         now().dispatchIndirect(commands, buffer, offset);
     }
-    static VKAPI_ATTR void VKAPI_CALL waited(VkCommandBuffer commands, const VkDependencyInfo* info) {
+    static VKAPI_ATTR void VKAPI_CALL waited(VkCommandBuffer commands, VkPipelineStageFlags before,
+                                             VkPipelineStageFlags after, VkDependencyFlags flags, uint32_t globalCount,
+                                             const VkMemoryBarrier* global, uint32_t bufferCount,
+                                             const VkBufferMemoryBarrier* buffers, uint32_t imageCount,
+                                             const VkImageMemoryBarrier* images) {
         count(&WatchedCommands::barriers);
-        now().pipelineBarrier(commands, info);
+        now().pipelineBarrier(commands, before, after, flags, globalCount, global, bufferCount, buffers, imageCount,
+                              images);
     }
     static VKAPI_ATTR void VKAPI_CALL copied(VkCommandBuffer commands, VkBuffer source, VkBuffer target, uint32_t count,
                                              const VkBufferCopy* regions) {
@@ -75,7 +80,7 @@ struct WatchedRecording {
         watch("vkGetDeviceProcAddr", now().getDeviceProcAddr, &fromDevice);
         watch("vkCmdDispatch", now().dispatch, &dispatched);
         watch("vkCmdDispatchIndirect", now().dispatchIndirect, &dispatchedIndirect);
-        watch("vkCmdPipelineBarrier2", now().pipelineBarrier, &waited);
+        watch("vkCmdPipelineBarrier", now().pipelineBarrier, &waited);
         watch("vkCmdCopyBuffer", now().copyBuffer, &copied);
         watch("vkCmdCopyBuffer2", now().copyBuffer2, &copied2);
         watch("vkCmdFillBuffer", now().fillBuffer, &filled);

@@ -8,7 +8,7 @@ namespace supple::bench {
 
 struct WatchedCommands {
     uint32_t dispatches = 0; ///< direct and indirect
-    uint32_t barriers = 0;   ///< vkCmdPipelineBarrier2
+    uint32_t barriers = 0;   ///< vkCmdPipelineBarrier
     uint32_t copies = 0;     ///< of buffers: copies, fills and updates
 };
 

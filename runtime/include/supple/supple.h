@@ -195,18 +195,18 @@ typedef void (*SuppleLogFunction)(SuppleSeverity severity, SuppleMessage message
 /* ---------------------------------------------------------------------------------------------------- device */
 
 /** What a device must have. Feature structs have their sType set and a null pNext, so a host can chain them into
- * VkDeviceCreateInfo. Only what Supple needs is VK_TRUE; a host may set more of them for itself. Device extensions are
- * needed for ray tracing alone. */
+ * VkDeviceCreateInfo. Only what Supple needs is VK_TRUE: nothing, unless contextFlags ask for it. A host may set more
+ * of them for itself. Chain features12 only on devices of Vulkan 1.2 or more, features13 only from 1.3 on. Device
+ * extensions are needed for ray tracing alone. */
 typedef struct SuppleRequirements {
     uint32_t structSize;
     uint32_t apiVersion; /**< lowest VkPhysicalDeviceProperties::apiVersion */
     VkPhysicalDeviceVulkan12Features features12;
     VkPhysicalDeviceVulkan13Features features13;
     char reason[256]; /**< the first thing that is lacking; empty if nothing is */
-    /** Set it before the call: VkApplicationInfo::apiVersion of the VkInstance, or 0 if you do not know. It must be 1.3
-     * or more: Vulkan gives an older instance no functions of 1.3, whatever the device has. A VkInstance does not tell
-     * its version. So with 0 an instance of 1.0 is refused here, but one of 1.1 or 1.2 only by suppleCreateContext, if
-     * the driver follows that rule. */
+    /** Set it before the call: VkApplicationInfo::apiVersion of the VkInstance, or 0 if you do not know. It must be 1.1
+     * or more, and 1.2 or more for what needs bufferDeviceAddress: Vulkan gives an older instance no functions of newer
+     * versions, whatever the device has. A VkInstance does not tell its version. */
     uint32_t instanceVersion;
     /** Set it before the call: the SuppleContextFlags that the context will have, or 0. SHARED_DISPATCHES and
      * RAY_TRACING need the feature bufferDeviceAddress, and RAY_TRACING what follows here. */
@@ -227,7 +227,8 @@ SUPPLE_API SuppleResult suppleQueryRequirements(VkInstance instance, VkPhysicalD
 /* ---------------------------------------------------------------------------------------------------- context */
 
 /** How lanes (shader invocations) share the work. NARROW: one lane per patch, texel-buffer loads. WIDE: many lanes per
- * patch, coefficients in workgroup memory. AUTO: NARROW on CPU devices such as lavapipe, WIDE on GPUs. Both give the
+ * patch, coefficients in workgroup memory. AUTO: NARROW on CPU devices such as lavapipe, WIDE on GPUs, and on CPU
+ * devices that read fewer than a million texels of a buffer (the log says so). Both give the
  * same positions, bit for bit. */
 typedef enum SuppleMapping {
     SUPPLE_MAPPING_AUTO = 0,
@@ -308,7 +309,7 @@ typedef struct SuppleContextDesc {
     uint32_t structSize;
     uint32_t flags; /**< SuppleContextFlags */
     /** Borrowed, as all Vulkan handles here: it must outlive the context. It must have been created with an apiVersion
-     * of 1.3 or more: see SuppleRequirements.instanceVersion. */
+     * of 1.1 or more: see SuppleRequirements.instanceVersion. */
     VkInstance instance;
     VkPhysicalDevice physicalDevice;
     /** It must have been created with what suppleQueryRequirements asks for. */
@@ -1389,7 +1390,8 @@ SUPPLE_API SuppleResult suppleGetRecordScopes(SuppleSyncScope* first, SuppleSync
 
 /** With SUPPLE_CONTEXT_ASYNC_COMPUTE, suppleRecord ends with barriers that release the outputs to drawQueueFamily. This
  * call gives the matching acquire barriers. Record them with one vkCmdPipelineBarrier2 in the command buffer that
- * draws, whose submission must wait for the compute submission's semaphore. Call it after the frame's suppleRecord and
+ * draws, or, where there is no such function, the same members in VkBufferMemoryBarrier with vkCmdPipelineBarrier,
+ * whose submission must wait for the compute submission's semaphore. Call it after the frame's suppleRecord and
  * before the next suppleBeginFrame. Release nothing back, because every frame writes the outputs anew. But the compute
  * submission must wait, by a semaphore, for the draws of earlier frames.
  * Ask for all groups that are drawn in one call. An acquire must match one release, so record each barrier once. A view

@@ -1,0 +1,73 @@
+#include "gpu/barriers.h"
+
+namespace supple::gpu {
+
+namespace {
+
+/// Flags above these 32 bits are those that Vulkan 1.0 lacks.
+constexpr uint64_t kBasicFlags = 0xFFFFFFFFu;
+
+} // namespace
+
+BasicScope basic(SyncScope scope) {
+    constexpr VkPipelineStageFlags2 kTransfers = VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_RESOLVE_BIT |
+                                                 VK_PIPELINE_STAGE_2_BLIT_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT;
+    constexpr VkPipelineStageFlags2 kInputs =
+        VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT;
+    constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+    constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+
+    BasicScope result{static_cast<VkPipelineStageFlags>(scope.stages & kBasicFlags),
+                      static_cast<VkAccessFlags>(scope.access & kBasicFlags)};
+    if ((scope.stages & kTransfers) != 0) {
+        result.stages |= VK_PIPELINE_STAGE_TRANSFER_BIT;
+    }
+    if ((scope.stages & kInputs) != 0) {
+        result.stages |= VK_PIPELINE_STAGE_VERTEX_INPUT_BIT;
+    }
+    if ((scope.stages & ~(kBasicFlags | kTransfers | kInputs)) != 0) {
+        result.stages |= VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    }
+    if ((scope.access & kReads) != 0) {
+        result.access |= VK_ACCESS_SHADER_READ_BIT;
+    }
+    if ((scope.access & kWrites) != 0) {
+        result.access |= VK_ACCESS_SHADER_WRITE_BIT;
+    }
+    if ((scope.access & ~(kBasicFlags | kReads | kWrites)) != 0) {
+        result.stages |= VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+        result.access |= VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+    }
+    return result;
+}
+
+void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScope before, SyncScope after) {
+    const BasicScope from = basic(before), to = basic(after);
+    VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+    barrier.srcAccessMask = from.access;
+    barrier.dstAccessMask = to.access;
+    device.vk.CmdPipelineBarrier(commandBuffer, from.stages != 0 ? from.stages : VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT,
+                                 to.stages != 0 ? to.stages : VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, 1, &barrier, 0,
+                                 nullptr, 0, nullptr);
+}
+
+void releaseBuffers(const Device& device, VkCommandBuffer commandBuffer,
+                    std::span<const VkBufferMemoryBarrier> barriers, VkPipelineStageFlags before) {
+    device.vk.CmdPipelineBarrier(commandBuffer, before, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, 0, nullptr,
+                                 static_cast<uint32_t>(barriers.size()), barriers.data(), 0, nullptr);
+}
+
+void computeBarrier(const Device& device, VkCommandBuffer commandBuffer) {
+    constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    memoryBarrier(device, commandBuffer, {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kWrite},
+                  {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, kRead | kWrite});
+}
+
+void disjointBarrier(const Device& device, VkCommandBuffer commandBuffer) {
+    if (!device.mapping.wide) {
+        computeBarrier(device, commandBuffer);
+    }
+}
+
+} // namespace supple::gpu
