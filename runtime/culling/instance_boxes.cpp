@@ -23,7 +23,8 @@ void BoxRuns::setUnknown(size_t index) {
 }
 
 Hull hullOf(const BoxRuns& boxes, const InstanceSlots& slots) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNaN = std::numeric_limits<float>::quiet_NaN();
+    constexpr Hull kNoHull{{kNaN, kNaN, kNaN}, {kNaN, kNaN, kNaN}, kNaN};
     float least = kInfinity;
     std::array<float, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
     for (uint32_t slot = 0; slot < slots.end(); ++slot) {
@@ -33,15 +34,21 @@ Hull hullOf(const BoxRuns& boxes, const InstanceSlots& slots) {
         float squares = 0.0f;
         for (size_t axis = 0; axis < 3; ++axis) {
             const float middle = boxes.middle(axis)[slot], half = boxes.half(axis)[slot];
+            if (!std::isfinite(middle) || !std::isfinite(half)) {
+                return kNoHull;
+            }
             low[axis] = std::min(low[axis], middle - half);
             high[axis] = std::max(high[axis], middle + half);
             squares += half * half;
         }
         least = std::min(least, std::sqrt(squares));
     }
+    if (least == kInfinity) {
+        return kNoHull;
+    }
     Hull hull;
     hull.least = least;
-    for (size_t axis = 0; axis < 3; ++axis) { // of infinite ones nothing is a number
+    for (size_t axis = 0; axis < 3; ++axis) {
         hull.middle[axis] = 0.5f * low[axis] + 0.5f * high[axis];
         hull.half[axis] = 0.5f * high[axis] - 0.5f * low[axis];
     }

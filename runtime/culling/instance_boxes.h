@@ -26,12 +26,12 @@ private:
     std::vector<float> values_; ///< side by side: a frame reads all of them
 };
 
-/// A box that holds others. Without any, and if one is unknown, its numbers are none.
+/// A box that holds others. Without any, and if one is unknown or not finite, its numbers are NaN.
 struct Hull {
     std::array<float, 3> middle{}, half{};
     float least = 0.0f; ///< half the diagonal of the smallest of them
 };
-/// Of the visible slots. What is not a number in a box, it passes over.
+/// Of the visible slots.
 [[nodiscard]] Hull hullOf(const BoxRuns& boxes, const InstanceSlots& slots);
 
 /// How many pixels a unit has at most within a box; infinity if the camera may stand in it, or

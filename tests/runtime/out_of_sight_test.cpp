@@ -336,6 +336,8 @@ TEST(FindUnseen, AHullIsSeenAsAllItsBoxesAre) {
     EXPECT_EQ(runtime::sightOf({}, runtime::hullOf(unknown, slots)), runtime::Sight::mixed) << "nobody is there";
     (void)slots.create();
     EXPECT_EQ(runtime::sightOf({}, runtime::hullOf(unknown, slots)), runtime::Sight::mixed);
+    unknown.set(0, {glm::dvec3(-1.0, std::nan(""), -1.0), glm::dvec3(1.0)});
+    EXPECT_EQ(runtime::sightOf({}, runtime::hullOf(unknown, slots)), runtime::Sight::mixed);
     unknown.set(0, {glm::dvec3(-1.0), glm::dvec3(1.0)});
     EXPECT_EQ(runtime::sightOf({}, runtime::hullOf(unknown, slots)), runtime::Sight::seen) << "it sees everything";
 }
