@@ -1,7 +1,6 @@
 #include "tools/supple/profile_report.h"
 
 #include "tools/common/formatted.h"
-#include "tools/supple/command.h"
 #include "tools/supple/memory_report.h"
 #include "tools/supple/profile_advice.h"
 
@@ -164,7 +163,7 @@ void addFrame(const FrameSample& frame, int process, const std::function<double(
 std::string holdersText(const ProfileRun& run) {
     std::string text;
     for (const MemoryHolder& holder : run.holders) {
-        text += "    " + printable(holder.name) + ": " + heldText(holder.use) + "\n";
+        text += "    " + holder.name + ": " + heldText(holder.use) + "\n";
     }
     return text + (run.keptUnseen > 0
                        ? formatted("    What goes back does so when nobody is seen for %u frames.\n", run.keptUnseen)

@@ -112,7 +112,7 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     }
     Subject& subject = subjects_.emplace_back();
     subject.asset = *asset;
-    subject.name = utf8Text(utf8Path(file.path).filename());
+    subject.name = printable(utf8Text(utf8Path(file.path).filename()));
     const std::vector<cage::Clip>& clips = file.character.clips;
     const Result<uint32_t> clip = playedClip(file.character, options_.clip);
     if (!clip) {
