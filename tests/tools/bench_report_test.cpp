@@ -327,9 +327,9 @@ TEST(BenchReport, PassesOfAViewAreShownAndJudged) {
     result["targets"] = judge(result);
     const std::string text = toTables(result);
     for (const char* piece : {"## The crowd in a view",
-                              "| scheme | characters | vertices | frame, ms | all unseen, ms | with as many more "
-                              "unseen / without | evaluate | level | place | (level + "
-                              "place + attributes) / evaluate |",
+                              "| scheme | characters | vertices | frame, ms | all unseen, ms | as many more unseen "
+                              "add, % | evaluate | level | "
+                              "place | (level + place + attributes) / evaluate |",
                               "| pm     |        100 |     5000 |      30.0 |           0.25 |                         "
                               "      1.02 |     20.0 |  8.50 |       |",
                               "| prep   |        100 |     5000 |      30.0 |           0.25 |                         "
