@@ -1,5 +1,6 @@
 #include "gpu/device.h"
 
+#include "gpu/fast_math.h"
 #include "gpu/ray_tracing.h"
 
 #include <algorithm>
@@ -235,6 +236,25 @@ Result<Mapping> mappingOf(const DeviceDesc& desc, const Functions& vk, const Pro
     return mapping;
 }
 
+/// Whether the queues are of families that the device has, and can do what is asked of them.
+Status readFamilies(const DeviceDesc& desc, Device& d) {
+    uint32_t familyCount = 0;
+    d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, nullptr);
+    for (const uint32_t family : {desc.queueFamily, desc.drawQueueFamily}) {
+        if (family >= familyCount) {
+            return Error{ErrorCode::range,
+                         "queue family " + std::to_string(family) + ": the device has " + std::to_string(familyCount)};
+        }
+    }
+    std::vector<VkQueueFamilyProperties> families(familyCount);
+    d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, families.data());
+    if ((families[desc.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
+        return Error{ErrorCode::argument, "queue family " + std::to_string(desc.queueFamily) + ": no compute"};
+    }
+    d.timestampValidBits = families[desc.queueFamily].timestampValidBits;
+    return success();
+}
+
 } // namespace
 
 Result<Device> Device::create(const DeviceDesc& desc) {
@@ -270,22 +290,11 @@ Result<Device> Device::create(const DeviceDesc& desc) {
                      "or more"};
     }
     d.vk.GetPhysicalDeviceMemoryProperties(desc.physicalDevice, &d.memory);
+    d.fastMath = properties.version() >= VK_API_VERSION_1_2 && hasFastMath(d.vk, desc.physicalDevice);
     d.drawIndirectFirstInstance = hasIndirectFirstInstance(d.vk, desc.physicalDevice, desc.enabledFeatures);
-
-    uint32_t familyCount = 0;
-    d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, nullptr);
-    for (const uint32_t family : {desc.queueFamily, desc.drawQueueFamily}) {
-        if (family >= familyCount) {
-            return Error{ErrorCode::range,
-                         "queue family " + std::to_string(family) + ": the device has " + std::to_string(familyCount)};
-        }
+    if (Status families = readFamilies(desc, d); !families) {
+        return families.error();
     }
-    std::vector<VkQueueFamilyProperties> families(familyCount);
-    d.vk.GetPhysicalDeviceQueueFamilyProperties(desc.physicalDevice, &familyCount, families.data());
-    if ((families[desc.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {
-        return Error{ErrorCode::argument, "queue family " + std::to_string(desc.queueFamily) + ": no compute"};
-    }
-    d.timestampValidBits = families[desc.queueFamily].timestampValidBits;
     return d;
 }
 

@@ -65,6 +65,7 @@ struct Device {
     uint32_t timestampValidBits = 0;
     /// Indirect commands may name a first instance. True too if the host has not told what it enabled.
     bool drawIndirectFirstInstance = true;
+    bool fastMath = false;   ///< gpu/fast_math.h
     bool rayTracing = false; ///< buffers may have gpu::kBuildInputUsage (gpu/ray_tracing.h)
 
     /// Whether buffers may have addresses: all memory is then allocated for them.

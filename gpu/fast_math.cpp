@@ -25,13 +25,13 @@ std::vector<uint32_t> floatControls() {
 
 } // namespace
 
-bool hasFastMath(const Device& device) {
+bool hasFastMath(const Functions& vk, VkPhysicalDevice physicalDevice) {
     VkPhysicalDeviceFloatControlsProperties floats{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES};
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     driver.pNext = &floats;
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &driver;
-    device.vk.GetPhysicalDeviceProperties2(device.physicalDevice, &properties);
+    vk.GetPhysicalDeviceProperties2(physicalDevice, &properties);
     return driver.driverID == VK_DRIVER_ID_MOLTENVK && floats.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE;
 }
 

@@ -3,7 +3,7 @@
 // then two patches that have an edge in common no longer have the same bits there.
 #pragma once
 
-#include "gpu/device.h"
+#include "gpu/functions.h"
 
 #include <cstdint>
 #include <span>
@@ -12,10 +12,11 @@
 namespace supple::gpu {
 
 /// Whether the driver compiles with fast math unless a kernel has the execution mode SignedZeroInfNanPreserve, and
-/// knows that mode: MoltenVK. Others keep to NoContraction, and would compute slower with it.
-[[nodiscard]] bool hasFastMath(const Device& device);
+/// knows that mode: MoltenVK. Others keep to NoContraction, and would compute slower with it. The device has
+/// Vulkan 1.2.
+[[nodiscard]] bool hasFastMath(const Functions& vk, VkPhysicalDevice physicalDevice);
 
-/// The kernel with that execution mode for 32-bit floats. SPIR-V from version 1.4 on, with one entry point.
+/// The kernel with that execution mode for 32-bit floats. It has one entry point.
 [[nodiscard]] std::vector<uint32_t> withoutFastMath(std::span<const uint32_t> spirv);
 
 } // namespace supple::gpu

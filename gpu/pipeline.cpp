@@ -71,7 +71,7 @@ Result<PipelineHandle> createComputePipeline(const Device& device, VkPipelineLay
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     std::span<const uint32_t> words = wordsOf(device, spirv);
     std::vector<uint32_t> changed;
-    if (hasFastMath(device)) {
+    if (device.fastMath) {
         changed = withoutFastMath(words);
         words = changed;
     }

@@ -89,23 +89,19 @@ skinning::Skinning Asset::skinning(skinning::SkinningMode mode) const {
     const auto found = [](const auto& prepared, const auto& own) {
         return prepared ? &*prepared : own ? &*own : nullptr;
     };
-    return {mode, found(prepared->centers, ownCenters), found(prepared->mush, ownMush)};
+    return {mode, found(prepared->extras.centers, ownExtras.centers), found(prepared->extras.mush, ownExtras.mush)};
 }
 
 Status Asset::findExtra(skinning::SkinExtra extra) {
-    if (extra == skinning::SkinExtra::centers && !prepared->centers && !ownCenters) {
-        ownCenters = skinning::findCenters(character);
-        noteLate("the centers of rotation");
+    if (prepared->extras.has(extra) || ownExtras.has(extra)) {
+        return success();
     }
-    if (extra == skinning::SkinExtra::mush && !prepared->mush && !ownMush) {
-        Result<skinning::DeltaMush> mush = skinning::findDeltaMush(character);
-        if (!mush) {
-            return mush.error();
-        }
-        ownMush = std::move(*mush);
-        noteLate("the smoothed weights of delta mush");
+    const Status found = ownExtras.find(character, extra);
+    if (found) {
+        noteLate(extra == skinning::SkinExtra::centers ? "the centers of rotation"
+                                                       : "the smoothed weights of delta mush");
     }
-    return success();
+    return found;
 }
 
 void Asset::noteLate(const char* what) {

@@ -64,13 +64,12 @@ struct Asset {
     std::shared_ptr<const skinning::ClipTable> clipTable; ///< its words stay: the CPU poses by them as well
     gpu::StaticBuffers clips;                             ///< 0: the clip table
     SoftOfAsset jiggles, cloths; ///< of skinning::JiggleTable and ClothTable, made for the first group that is soft
-    std::shared_ptr<ClipStream> stream;          ///< null: all segments of clips are on the device
-    uint64_t clipsVersion = 0;                   ///< stream->version() that they were made of
-    uint64_t clipPoolBytes = 0;                  ///< SuppleAssetDesc
-    std::optional<skinning::Reach> ownReach;     ///< made for the first group of a view, if it was not prepared
-    std::optional<skinning::Centers> ownCenters; ///< if they were not prepared
-    std::optional<skinning::DeltaMush> ownMush;  ///< the same
-    skinning::UpdateFacts updates;               ///< made for the first group with update rates
+    std::shared_ptr<ClipStream> stream;      ///< null: all segments of clips are on the device
+    uint64_t clipsVersion = 0;               ///< stream->version() that they were made of
+    uint64_t clipPoolBytes = 0;              ///< SuppleAssetDesc
+    std::optional<skinning::Reach> ownReach; ///< made for the first group of a view, if it was not prepared
+    skinning::SkinExtras ownExtras;          ///< if they were not prepared
+    skinning::UpdateFacts updates;           ///< made for the first group with update rates
     std::shared_ptr<const skinning::DriverTable> drivers; ///< made for the first group that asks on the CPU
     std::vector<std::shared_ptr<AssetPiece>> pieces;
     std::vector<std::shared_ptr<SchemeTables>> schemes;

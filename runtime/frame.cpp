@@ -211,7 +211,7 @@ PassCost recordReadback(const Frame& frame, Group& group) {
     view.recordReadback(frame.commands);
     frame.forEach([&](Group& other) {
         if (other.view() == &view) {
-            view.recordReadback(frame.commands, other.culling()->list().buffer, other.culling()->countOffset(),
+            view.recordReadback(frame.commands, *other.culling(),
                                 {other.patchesAtLevels(), other.leastVertices(), other.unposed()});
         }
     });
@@ -590,7 +590,7 @@ Result<Group*> Context::linkGroups(const SuppleRecordDesc& desc, uint64_t call) 
 }
 
 Context::Statics Context::recordPendingStatics(VkCommandBuffer commandBuffer, Group& group) {
-    if (group.staticsThere() && !group.staticsPending() && group.asset().stream == nullptr) {
+    if (group.staticsThere() && !group.staticsPending() && !group.streamsClips()) {
         return {0, true};
     }
     const std::scoped_lock lock(uploading_);

@@ -52,6 +52,8 @@ Result<std::shared_ptr<Group>> Group::create(const GroupShared& shared, std::sha
     group->handsOver_ = shared.handsOver;
     group->number_ = shared.number;
     group->recipe_ = GroupRecipe(desc);
+    group->leader_ = desc.instancesOf.id;
+    group->streamsClips_ = group->asset_->stream != nullptr;
     group->desc_ = desc;
     group->surfaceBuffers_.setKeepFrames(desc.keepUnseenFrames);
     TessellationDesc tessellation;
@@ -495,7 +497,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     if (frame.leader != nullptr && sharesCoefficients()) {
         followCoefficients(*frame.leader);
     }
-    if (culling_ != nullptr && culling_->instanceUnits() > 0) {
+    if (view_ != nullptr && view_->poolUnits() > 0 && culling_->instanceUnits() > 0) {
         if (passesFrame_ != view_->recordedBefore()) {
             listing_.forgetAll(); // others have written where its coefficients were
         }
@@ -528,7 +530,7 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     }
     cost.bytes += stages_.recordUpload(commandBuffer, frame.number, frame.time, slots());
     changed = findList(frame.number) || changed;
-    const uint32_t sharers = culling_ != nullptr ? culling_->sharers()->end() : 0;
+    const uint32_t sharers = culling_ != nullptr && drawnElsewhere() ? culling_->sharers()->end() : 0;
     changed = std::exchange(sharers_, sharers) != sharers || changed;
     const bool pastMoves =
         step != pastStep_ &&
@@ -563,7 +565,7 @@ bool Group::findUnseen() {
         return false;
     }
     // Groups that draw the same instances read their deformed cages, wherever their views look.
-    return drawnElsewhere() ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), boxes_.boxes());
+    return drawnElsewhere() ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), boxes_);
 }
 
 bool Group::findList(uint64_t frame) {

@@ -86,7 +86,7 @@ public:
     [[nodiscard]] const InstanceListing& listing() const { return listing_; }
     [[nodiscard]] const InstanceWindows& windows() const { return listing_.windows(); }
     /// The group whose instances it draws, as its description says; 0: they are its own.
-    [[nodiscard]] uint64_t leader() const { return recipe_.leader(); }
+    [[nodiscard]] uint64_t leader() const { return leader_; }
     [[nodiscard]] bool follows() const { return leader() != 0; }
     [[nodiscard]] InstanceSlots& slots() { return instances_->slots(); }
     [[nodiscard]] PoseSource& poses() { return instances_->poses(); }
@@ -133,6 +133,8 @@ public:
     /// All are recorded. They stay, unless the frame that has them is cancelled.
     void noteStaticsThere() { staticsThere_ = true; }
     [[nodiscard]] bool staticsThere() const { return staticsThere_; }
+    /// Segments of its clips may be due in any frame.
+    [[nodiscard]] bool streamsClips() const { return streamsClips_; }
     /// `number`: one that no group has had. Tasks that were recorded under the last one are not gone on from.
     void noteBuffersChanged(uint64_t number) {
         number_ = number;
@@ -244,14 +246,31 @@ private:
     /// What frames concern: once all of it is there.
     void addMembers(const GroupShared& shared);
 
+    // What every recording reads and writes stands together, behind `link`: where there are many groups, a frame waits
+    // for their memory.
+    uint64_t passesFrame_ = 0, passesBefore_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
+    uint64_t leader_ = 0;                    ///< the group whose instances it draws; 0: they are its own
+    uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change
+    gpu::TaskNeeds taskNeeds_;
+    Culling* culling_ = nullptr;   ///< visibility_, if the group belongs to a view
+    uint32_t sharers_ = 0;         ///< of the last recording: Sharers::end()
+    uint32_t patchesAtLevels_ = 0; ///< in a view
+    glm::dvec3 origin_{0.0};       ///< of the last recording
+    glm::vec3 pastStep_{0.0f};     ///< of the last recording
+    bool handsOver_ = false;       ///< to another queue family
+    bool streamsClips_ = false;    ///< the asset has a ClipStream
+    bool listsSeen_ = false, outputsAsked_ = false, staticsThere_ = false, lackTold_ = false;
+    bool leftOutAll_ = false;       ///< by the last recording: InstanceListing::leavesOutAll()
+    uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
+    RecordedOnce noDraws_;
+    RecordedOnce emptyList_; ///< the list pass of a frame in which nothing is to list
+
     std::shared_ptr<Asset> asset_;
     std::shared_ptr<View> view_;
     GroupRecipe recipe_;
     SuppleGroupDesc desc_{}; ///< without pointers
     uint32_t rate_ = 0;      ///< that was set last; 0: none
-    glm::dvec3 origin_{0.0}; ///< of the last recording
     const gpu::Device* device_ = nullptr;
-    bool handsOver_ = false;           ///< to another queue family
     gpu::BufferSet buffers_, staging_; ///< of all but the instances, and but what surfaces may give back
     SurfaceBuffers surfaceBuffers_;
     SharerPlace place_; ///< during creation: among those who share the coefficients of the group that this one follows
@@ -261,7 +280,6 @@ private:
     InstanceBoxes boxes_; ///< if the group belongs to a view that asks for them
     OutOfSight outOfSight_;
     std::unique_ptr<Visibility> visibility_;
-    Culling* culling_ = nullptr;                 ///< visibility_, if the group belongs to a view
     std::unique_ptr<ListedBounds> listedBounds_; ///< if it belongs to none and has bounds
     std::unique_ptr<BoundsReadback> boundsReadback_;
     std::vector<Hashed> hashed_;
@@ -269,18 +287,6 @@ private:
     CageStages stages_;
     PointSets points_;
     Surfaces surfaces_;
-    uint64_t passesFrame_ = 0, passesBefore_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
-    uint32_t sharers_ = 0;                   ///< of the last recording: Sharers::end()
-    uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change
-    gpu::TaskNeeds taskNeeds_;
-    uint32_t patchesAtLevels_ = 0; ///< in a view
-    glm::vec3 pastStep_{0.0f};     ///< of the last recording
-    RecordedOnce noDraws_;
-    RecordedOnce emptyList_; ///< the list pass of a frame in which nothing is to list
-    bool listsSeen_ = false;
-    bool outputsAsked_ = false, staticsThere_ = false, lackTold_ = false;
-    bool leftOutAll_ = false;       ///< by the last recording: InstanceListing::leavesOutAll()
-    uint32_t unrecordedFrames_ = 0; ///< with outputs asked for and instances to see
 };
 
 } // namespace supple::runtime

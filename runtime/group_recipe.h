@@ -36,7 +36,6 @@ public:
         desc.partSchemeCount = static_cast<uint32_t>(partSchemes_.size());
         return desc;
     }
-    [[nodiscard]] uint64_t leader() const { return desc_.instancesOf.id; }
     void setCapacity(uint32_t capacity) { desc_.capacity = capacity; }
     /// The schemes of single parts move along. `parts`: by new number the old one, or kNone.
     void renumberParts(std::span<const uint32_t> parts) {

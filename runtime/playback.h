@@ -128,6 +128,11 @@ public:
         return uint64_t{states_.version(slot)} << 32 | bounds_.loopOf(slot, time_);
     }
 
+    /// The same of all slots; 0: somebody may travel, or be in a transition, and boxes follow from the time too.
+    [[nodiscard]] uint64_t boundsVersions() const {
+        return roots_ || transitions_.holds(time_) ? 0 : states_.changes();
+    }
+
     /// Takes over the time, the masks and the first `count` instances, of the same asset or of another version of it.
     /// Layers whose clip the other version lacks are left out. Joints and morph targets that it lacks have in a mask
     /// what they would have if the mask did not name them.

@@ -27,6 +27,7 @@ void PlayedStates::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging) {
 
 void PlayedStates::markChanged(uint32_t slot) {
     versions_[slot] += versions_[slot] == UINT32_MAX ? 2 : 1;
+    ++changes_;
     if (!changed_[slot]) {
         changed_[slot] = true;
         changedSlots_.push_back(slot);

@@ -39,6 +39,8 @@ public:
     void markChanged(uint32_t slot);
     /// Another number after each change; never 0.
     [[nodiscard]] uint32_t version(uint32_t slot) const { return versions_[slot]; }
+    /// The same of all slots.
+    [[nodiscard]] uint64_t changes() const { return changes_; }
 
     [[nodiscard]] bool haveTransitions() const { return desc_.transitionElements > 0; }
     /// Its words are written only with markTransition().
@@ -79,6 +81,7 @@ private:
     std::vector<uint32_t> words_;
     // By slot:
     std::vector<uint32_t> versions_;
+    uint64_t changes_ = 1;
     std::vector<bool> transitionDue_; ///< the words are not on the device yet
     std::vector<bool> beforeDue_;     ///< likewise of what it has played before
     std::vector<bool> changed_;

@@ -91,6 +91,7 @@ public:
         return playback_.boundsOf(slot, reach);
     }
     [[nodiscard]] uint64_t boundsVersion(uint32_t slot) const override { return playback_.boundsVersion(slot); }
+    [[nodiscard]] uint64_t boundsVersions() const override { return playback_.boundsVersions(); }
     [[nodiscard]] bool takesModifiers() const override { return playback_.takesModifiers(); }
     void setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers) override {
         playback_.setModifiers(slot, modifiers);

@@ -42,6 +42,8 @@ public:
     }
     /// Another number whenever boundsOf() may give another box than the last time; never 0.
     [[nodiscard]] virtual uint64_t boundsVersion(uint32_t /*slot*/) const { return 1; }
+    /// The same of all slots: as long as it stays, none of theirs changes. 0: ask for each.
+    [[nodiscard]] virtual uint64_t boundsVersions() const { return 0; }
     // Modifiers; only sources that take them are asked.
     [[nodiscard]] virtual bool takesModifiers() const { return false; }
     virtual void setModifiers(uint32_t /*slot*/, std::span<const PlacedModifier> /*modifiers*/) {}

@@ -68,21 +68,6 @@ Status prepareSurface(Prepared& prepared, const PlannedGroup& group, const Schem
     return measure();
 }
 
-Status prepareSkinning(Prepared& prepared, skinning::SkinningMode mode) {
-    const skinning::SkinExtra extra = skinning::skinningRow(mode).extra;
-    if (extra == skinning::SkinExtra::centers && !prepared.centers) {
-        prepared.centers = skinning::findCenters(prepared.character);
-    }
-    if (extra == skinning::SkinExtra::mush && !prepared.mush) {
-        Result<skinning::DeltaMush> mush = skinning::findDeltaMush(prepared.character);
-        if (!mush) {
-            return mush.error();
-        }
-        prepared.mush = std::move(*mush);
-    }
-    return success();
-}
-
 } // namespace
 
 Result<PlannedSurface> plannedSurface(const Prepared& prepared, const PlannedGroup& group, const SchemeParts& parts,
@@ -110,8 +95,9 @@ Status prepareFor(Prepared& prepared, const PlannedGroup& group, bool wide) {
     if (posesNodes(group.desc.poseSource, has(SUPPLE_GROUP_MODIFIERS), has(SUPPLE_GROUP_SPRINGS)) && !prepared.clips) {
         prepared.clips = skinning::buildClipTable(prepared.character);
     }
-    if (Status skinned = prepareSkinning(prepared, skinningOf(prepared.character, group.desc.skinning)); !skinned) {
-        return skinned;
+    const skinning::SkinningRow& row = skinning::skinningRow(skinningOf(prepared.character, group.desc.skinning));
+    if (Status found = prepared.extras.find(prepared.character, row.extra); !found) {
+        return found;
     }
     if (group.viewFlags && !prepared.reach) {
         prepared.reach = skinning::reachOf(prepared.character);

@@ -4,13 +4,12 @@
 #include "base/result.h"
 #include "cage/character.h"
 #include "cage/piece.h"
-#include "skinning/centers.h"
 #include "skinning/clip_table.h"
 #include "skinning/deform_table.h"
-#include "skinning/delta_mush.h"
 #include "skinning/joints.h"
 #include "skinning/layers.h"
 #include "skinning/reach.h"
+#include "skinning/skin_extras.h"
 #include "surface/choice.h"
 #include "surface/lod/instance.h"
 #include "surface/schemes.h"
@@ -52,8 +51,7 @@ struct Prepared {
     skinning::JointFrames jointFrames;
     std::optional<skinning::ClipTable> clips; ///< if a group is to play on the device
     std::optional<skinning::Reach> reach;     ///< if a group is to be of a view
-    std::optional<skinning::Centers> centers; ///< if a group is to be skinned about them
-    std::optional<skinning::DeltaMush> mush;  ///< if a group is to be skinned by it
+    skinning::SkinExtras extras;              ///< what groups need for the way in which they are to be skinned
     std::vector<std::shared_ptr<const PreparedPiece>> pieces;
     std::vector<std::shared_ptr<const PreparedTables>> tables;
     /// How the level of an instance is measured, if a group of a view is to have the tables.

@@ -2,6 +2,7 @@
 
 #include "gpu/barriers.h"
 #include "runtime/culling/bounds_kernels.h"
+#include "runtime/culling/culling.h"
 #include "surface/lod/grid.h"
 #include "surface/lod/tables.h"
 
@@ -456,13 +457,14 @@ void View::recordReadback(VkCommandBuffer commandBuffer) {
     device_->vk.CmdCopyBuffer(commandBuffer, words_.buffer(), readback_.buffer(0), 1, &region);
 }
 
-void View::recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, SolvedGroup group) {
+void View::recordReadback(VkCommandBuffer commandBuffer, const Culling& culling, SolvedGroup group) {
     const uint64_t place = recordedFrame_ % framesInFlight_;
     const uint32_t index = solved_[place].groups++;
     solved_[place].of[index] = group;
     if (!countsOfView()) {
-        const VkBufferCopy region{offset, place * readbackBytes() + kSolvedBytes + kCountBytes * index, kCountBytes};
-        device_->vk.CmdCopyBuffer(commandBuffer, counts, readback_.buffer(0), 1, &region);
+        const VkBufferCopy region{culling.countOffset(), place * readbackBytes() + kSolvedBytes + kCountBytes * index,
+                                  kCountBytes};
+        device_->vk.CmdCopyBuffer(commandBuffer, culling.list().buffer, readback_.buffer(0), 1, &region);
     }
 }
 

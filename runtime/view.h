@@ -23,6 +23,8 @@ namespace supple::runtime {
 /// What the pool of a view is given away by.
 inline constexpr VkDeviceSize kPoolUnitBytes = shared::kPoolUnit * gpu::kVec4Bytes;
 
+class Culling;
+
 class View final : public gpu::FrameMembers {
 public:
     /// `passes` must outlive the view.
@@ -96,9 +98,9 @@ public:
         uint32_t unposed = 0;       ///< instances that were left out before they were posed
     };
     /// Copies what the solver found out to where the host reads it frames later; then, for each of its groups, how many
-    /// instances were seen (Culling::countOffset).
+    /// instances were seen.
     void recordReadback(VkCommandBuffer commandBuffer);
-    void recordReadback(VkCommandBuffer commandBuffer, VkBuffer counts, VkDeviceSize offset, SolvedGroup group);
+    void recordReadback(VkCommandBuffer commandBuffer, const Culling& culling, SolvedGroup group);
     /// Behind those of all groups.
     void recordCounts(VkCommandBuffer commandBuffer) const;
     void beginFrame(uint64_t completedFrame) override;

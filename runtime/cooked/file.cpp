@@ -77,10 +77,10 @@ void writeAll(const Prepared& prepared, const std::string& madeBy, Writer& write
     constexpr std::array<std::byte, sizeof(Header)> kRoom{};
     writer.put(std::span<const std::byte>(kRoom));
     writer(madeBy, prepared.character, prepared.choices, prepared.clips.has_value());
-    writer(prepared.centers ? std::optional(prepared.centers->points) : std::nullopt);
-    writer(prepared.mush.has_value());
-    if (prepared.mush) {
-        writer(prepared.mush->places, prepared.mush->starts, prepared.mush->influences);
+    writer(prepared.extras.centers ? std::optional(prepared.extras.centers->points) : std::nullopt);
+    writer(prepared.extras.mush.has_value());
+    if (prepared.extras.mush) {
+        writer(prepared.extras.mush->places, prepared.extras.mush->starts, prepared.extras.mush->influences);
     }
     writer(static_cast<uint32_t>(prepared.pieces.size()));
     for (const auto& piece : prepared.pieces) {
@@ -182,7 +182,7 @@ void readCenters(Reader& reader, Prepared& prepared) {
         reader.refuse("centers of rotation that are none");
         return;
     }
-    prepared.centers = skinning::Centers::of(prepared.character, std::move(*points));
+    prepared.extras.centers = skinning::Centers::of(prepared.character, std::move(*points));
 }
 
 bool isSoundInfluence(const skinning::MushInfluence& influence, size_t jointCount) {
@@ -216,7 +216,7 @@ void readMush(Reader& reader, Prepared& prepared) {
         reader.refuse("smoothed weights that are none");
         return;
     }
-    prepared.mush =
+    prepared.extras.mush =
         skinning::DeltaMush::of(prepared.character, std::move(places), std::move(starts), std::move(influences));
 }
 

@@ -15,6 +15,12 @@ namespace supple::runtime {
 /// floats (shaders/bounds/bounds.comp): what is surely unseen here is unseen there.
 void findUnseen(const shared::CullView& view, const BoxRuns& boxes, std::span<uint8_t> unseen);
 
+/// How a view sees all of some boxes.
+enum class Sight : uint8_t { mixed, seen, unseen };
+/// Of all boxes that the hull holds what findUnseen() would say. `mixed`: not all the same, or it takes too long to
+/// say.
+[[nodiscard]] Sight sightOf(const shared::CullView& view, const Hull& hull);
+
 /// Finding allocates nothing.
 class OutOfSight {
 public:
@@ -23,8 +29,8 @@ public:
     /// Whether somebody looks for them.
     [[nodiscard]] bool isAskedFor() const { return !unseen_.empty(); }
 
-    /// True if others than before are unseen. `boxes`: by slot.
-    bool find(const shared::CullView& view, const InstanceSlots& slots, const BoxRuns& boxes);
+    /// True if others than before are unseen. `boxes`: as they were found of these slots.
+    bool find(const shared::CullView& view, const InstanceSlots& slots, const InstanceBoxes& boxes);
     /// Nothing is unseen. True if something was.
     bool clear();
     [[nodiscard]] bool holds(uint32_t slot) const { return unseen_[slot] != 0; }
@@ -34,6 +40,9 @@ public:
 private:
     std::vector<uint8_t> judged_, unseen_; ///< by slot
     uint32_t count_ = 0;
+    // As it was when slots were looked through last: all of them, or mixed.
+    Sight sight_ = Sight::mixed;
+    uint64_t slotsVersion_ = 0; ///< InstanceSlots::version
 };
 
 } // namespace supple::runtime

@@ -224,6 +224,12 @@ protected:
     /// Elements of an instance.
     [[nodiscard]] virtual uint32_t scratchStride() const { return program_.scratchStride; }
 
+    // Every recording looks at these, so they stand first.
+    uint32_t pool_ = 0; ///< of the newest frame
+    glm::vec3 pastStep_{0.0f};
+    bool hasBuffers_ = true, constructs_ = true;
+    const Tessellation* leader_ = nullptr; ///< which shares its coefficients, as long as its group is there
+
     TessellationDesc desc_;
     BuiltSurface built_;
     surface::Evaluation evaluation_;
@@ -232,10 +238,6 @@ protected:
     const Visibility* visibility_ = nullptr;
     SurfaceMemory memory_;
     SurfaceSets sets_;
-    uint32_t pool_ = 0; ///< of the newest frame
-    glm::vec3 pastStep_{0.0f};
-    bool hasBuffers_ = true, constructs_ = true;
-    const Tessellation* leader_ = nullptr; ///< which shares its coefficients, as long as its group is there
 
 private:
     /// Whether the leader's coefficients can be its own.

@@ -241,6 +241,71 @@ TEST_F(Followers, AreRecordedWithTheirLeader) {
     EXPECT_EQ(own.takeCount(SUPPLE_MESSAGE_OUT_OF_ORDER), 1u);
 }
 
+/// Groups that are created in a frame behind the recording of the one that they follow: what that one has left unposed,
+/// they cannot draw in this frame.
+void expectLateFollowers(CrowdContext& own, bool seesAll) {
+    const SuppleAsset asset = own.asset(kFollowed);
+    TestView view(own, 300000, SUPPLE_VIEW_CULL | SUPPLE_VIEW_MOTION);
+    Crowd leader(own, followedDesc(asset, view.handle()));
+    ASSERT_TRUE(leader.valid());
+    std::vector<SuppleInstance> instances;
+    const glm::vec3 eye(0.0f, 1.0f, seesAll ? 40.0f : 6.0f), ahead(0, 0, -1), aside(1, 0, 0);
+    for (uint32_t frame = 0; frame < 3; ++frame) {
+        moveFollowed(leader, instances, frame);
+        view.look(eye, eye + (seesAll ? ahead : aside), glm::perspectiveRH_ZO(0.7f, 1.0f, 0.1f, 500.0f));
+        leader.run();
+    }
+    own.beginFrame();
+    SuppleGroupDesc desc = followerDesc(leader, asset, SUPPLE_SCHEME_FRAGMENTS, {});
+    std::unique_ptr<Crowd> late;
+    Commands commands(own.device());
+    const SuppleGroup first = leader.group();
+    commands.record([&](VkCommandBuffer buffer) {
+        EXPECT_EQ(own.record(buffer, {&first, 1}), SUPPLE_OK);
+        late = std::make_unique<Crowd>(own, desc);
+        const SuppleGroup second = late->group();
+        EXPECT_EQ(own.record(buffer, {&second, 1}), SUPPLE_OK);
+    });
+    commands.submit();
+    commands.wait();
+    desc = followedDesc(asset, {});
+    desc.scheme = SUPPLE_SCHEME_FRAGMENTS;
+    desc.rate = 4;
+    Crowd alone(own, desc);
+    ASSERT_TRUE(late->valid() && alone.valid());
+    std::vector<SuppleInstance> ownInstances;
+    for (uint32_t frame = 0; frame < 3; ++frame) {
+        moveFollowed(alone, ownInstances, frame);
+        alone.run();
+    }
+    const DrawnPatches expected = drawnPatches(alone);
+    ASSERT_FALSE(expected.empty());
+    if (seesAll) {
+        EXPECT_TRUE(drawnPatches(*late) == expected) << "all were posed";
+    } else {
+        const std::vector<VkDrawIndexedIndirectCommand> draws = late->draws();
+        ASSERT_FALSE(draws.empty());
+        for (const VkDrawIndexedIndirectCommand& draw : draws) {
+            EXPECT_EQ(draw.indexCount * draw.instanceCount, 0u) << "it waits";
+        }
+    }
+    const SuppleGroup both[] = {first, late->group()};
+    own.run(both);
+    EXPECT_TRUE(drawnPatches(*late) == expected) << "the leader poses all that others draw";
+}
+
+TEST_F(Followers, ThatComeBehindTheRecordingOfTheirLeaderWaitForPosesThatItHasLeftOut) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        SCOPED_TRACE(mappingName(mapping));
+        expectLateFollowers(context(mapping), false);
+        expectLateFollowers(context(mapping), true);
+    }
+    CrowdContext shared(*testDevice(), SUPPLE_MAPPING_WIDE, 2, SUPPLE_CONTEXT_SHARED_DISPATCHES);
+    expectLateFollowers(shared, false);
+    expectLateFollowers(shared, true);
+}
+
 /// Views of the followed instances, from the left and from the right: each sees some that the other does not.
 void lookFromTwoSides(TestView& left, TestView& right) {
     for (TestView* view : {&left, &right}) {

@@ -265,6 +265,69 @@ TEST_P(GivenBack, WhatComesIntoSightInsideAFrameIsDrawnAFrameLaterAndHasNoMotion
     EXPECT_TRUE(gives.drawn() == keeps.drawn()) << "motion is exact from the second frame on";
 }
 
+TEST_P(GivenBack, WhatReturnsInACancelledFrameIsZeroedInTheNextOne) {
+    for (const size_t number : {0u, 1u, 3u, 5u}) {
+        const GivingUse& use = kGivingUses[number];
+        SCOPED_TRACE(use.name);
+        const SuppleAsset asset = assetFor(use);
+        Giving keeps(*context, use, asset, 0), gives(*context, use, asset, kKeptFrames);
+        ASSERT_TRUE(keeps.valid() && gives.valid());
+        const std::vector<SuppleGroup> both = {keeps.group(), gives.group()};
+        const auto set = [&](uint32_t frame, bool seen) {
+            keeps.set(frame, seen);
+            gives.set(frame, seen);
+        };
+        for (uint32_t frame = 0; frame < 6; ++frame) {
+            set(frame, frame < 2);
+            context->run(both);
+        }
+        ASSERT_EQ(gives.info().surfacesGivenBack, 1u);
+        for (uint32_t frame = 6; frame < 8; ++frame) { // with the buffers that it has taken once
+            set(frame, true);
+            context->cancel(both);
+            EXPECT_EQ(gives.info().surfacesGivenBack, 0u);
+        }
+        for (uint32_t frame = 8; frame < 11; ++frame) {
+            SCOPED_TRACE("frame " + std::to_string(frame));
+            set(frame, true);
+            context->run(both);
+            EXPECT_TRUE(gives.drawn() == keeps.drawn());
+            EXPECT_FALSE(gives.drawn().empty());
+            if (use.inView && !use.plays && use.scheme == SUPPLE_SCHEME_PM) {
+                expectMotion(gives.drawn(), frame == 8 ? 0.0f : kStep); // cancelled frames have shown nothing
+            }
+        }
+    }
+}
+
+TEST_P(GivenBack, WhatACancelledFrameHasZeroedStaysUntilAFrameHasDoneSo) {
+    const GivingUse& use = kGivingUses[0];
+    Giving gives(*context, use, assetFor(use), 1);
+    ASSERT_TRUE(gives.valid());
+    for (uint32_t frame = 0; frame < 4; ++frame) {
+        gives.set(frame, frame < 1);
+        context->run(gives.group());
+    }
+    ASSERT_GT(gives.memory().givenBack, 0u);
+    // It is in sight when the frame begins, and no longer when the frame is recorded.
+    gives.set(4, true);
+    context->beginFrame();
+    ASSERT_EQ(gives.info().surfacesGivenBack, 0u);
+    gives.set(4, false);
+    Commands dropped(context->device());
+    const SuppleGroup group = gives.group();
+    dropped.record([&](VkCommandBuffer commands) { EXPECT_EQ(context->record(commands, {&group, 1}), SUPPLE_OK); });
+    ASSERT_EQ(suppleCancelFrame(context->handle()), SUPPLE_OK);
+    context->run(group);
+    EXPECT_EQ(gives.info().surfacesGivenBack, 0u) << "this frame zeroes it";
+    context->run(group);
+    EXPECT_EQ(gives.info().surfacesGivenBack, 1u);
+    gives.set(5, true);
+    context->run(group);
+    EXPECT_FALSE(gives.drawn().empty());
+    expectMotion(gives.drawn(), 0.0f);
+}
+
 TEST_P(GivenBack, WithoutMemoryNothingIsDrawnAndTheNextFramesTryAgain) {
     CrowdContext own(*testDevice(), GetParam().mapping, 2, GetParam().flags);
     const GivingUse& use = kGivingUses[5];

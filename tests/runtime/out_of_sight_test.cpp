@@ -13,10 +13,14 @@
 #include "tests/support/test_view.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <memory>
+#include <random>
+#include <vector>
 
 namespace supple::test {
 namespace {
@@ -283,6 +287,59 @@ TEST_P(OutOfSight, AllArePosedForWhomThatMatters) {
         plain.run(0.0, 0.0f);
     }
     EXPECT_GE(plain.statistics().unposedInstanceCount, 14u);
+}
+
+TEST(FindUnseen, AHullIsSeenAsAllItsBoxesAre) {
+    std::mt19937 random(53);
+    std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
+    std::array<uint32_t, 3> found{};
+    for (uint32_t run = 0; run < 30000; ++run) {
+        const uint32_t count = 1 + run % 5;
+        runtime::InstanceSlots slots(count + 1, 1, 1);
+        runtime::BoxRuns boxes(count + 1);
+        const float spread = std::pow(10.0f, 2.0f * unit(random)), far = run % 3 == 0 ? 1e5f : 3.0f;
+        const glm::vec3 middle = far * glm::vec3(unit(random), unit(random), unit(random));
+        for (uint32_t i = 0; i <= count; ++i) {
+            (void)slots.create();
+            const glm::dvec3 at(middle + spread * glm::vec3(unit(random), unit(random), unit(random)));
+            const glm::dvec3 half(std::abs(unit(random)), 0.5, 1e-3);
+            boxes.set(i, {at - half, at + half});
+        }
+        slots.setVisible(count, false);
+        boxes.setUnknown(count); // nobody looks at it
+        shared::CullView view{};
+        for (size_t k = 0; k < 6; ++k) { // some of them touch a box
+            const glm::vec3 normal = glm::normalize(glm::vec3(unit(random), unit(random), unit(random) + 1e-3f));
+            const float distance = k == 0 ? spread * unit(random) : 3.0f * spread + 2.0f;
+            const float side = k == 0 && run % 2 == 0 ? 1.0f : 0.0f;
+            const float offset = distance - glm::dot(normal, middle) - side * std::abs(normal.y) * 0.5f;
+            const float plane[] = {normal.x, normal.y, normal.z, offset};
+            std::copy_n(plane, 4, view.planes + 4 * k);
+        }
+        view.camera.focal = 100.0f;
+        view.farthest = run % 4 == 0 ? far + 2.0f * spread * std::abs(unit(random)) : 0.0f;
+        view.smallest = run % 7 == 0 ? std::pow(10.0f, 2.0f * unit(random)) : 0.0f;
+        std::vector<uint8_t> all(count + 1);
+        runtime::findUnseen(view, boxes, all);
+        const auto hidden = std::count(all.begin(), all.end() - 1, uint8_t{1});
+        const runtime::Sight sight = runtime::sightOf(view, runtime::hullOf(boxes, slots));
+        ++found[static_cast<size_t>(sight)];
+        ASSERT_TRUE(sight != runtime::Sight::seen || hidden == 0) << "run " << run;
+        ASSERT_TRUE(sight != runtime::Sight::unseen || hidden == static_cast<ptrdiff_t>(count)) << "run " << run;
+    }
+    for (const uint32_t times : found) {
+        EXPECT_GT(times, 1000u);
+    }
+    runtime::InstanceSlots slots(1, 1, 1);
+    runtime::BoxRuns unknown(1);
+    unknown.setUnknown(0);
+    EXPECT_EQ(runtime::sightOf({}, runtime::hullOf(unknown, slots)), runtime::Sight::mixed) << "nobody is there";
+    (void)slots.create();
+    EXPECT_EQ(runtime::sightOf({}, runtime::hullOf(unknown, slots)), runtime::Sight::mixed);
+    unknown.set(0, {glm::dvec3(-1.0, std::nan(""), -1.0), glm::dvec3(1.0)});
+    EXPECT_EQ(runtime::sightOf({}, runtime::hullOf(unknown, slots)), runtime::Sight::mixed);
+    unknown.set(0, {glm::dvec3(-1.0), glm::dvec3(1.0)});
+    EXPECT_EQ(runtime::sightOf({}, runtime::hullOf(unknown, slots)), runtime::Sight::seen) << "it sees everything";
 }
 
 TEST(FindUnseen, WhatIsNotFiniteIsSeen) {

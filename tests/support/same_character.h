@@ -15,6 +15,7 @@ namespace supple::test {
 struct Overlooked {
     bool source = false;   ///< polygonSource, weldSource, sourceVertices and the counts of vertices of the source
     bool messages = false; ///< warnings and damages
+    bool extras = false;   ///< what arrays do not hand over: all that moves and chooses beside skin, targets and clips
 };
 
 /// The names of the fields that differ, with the first place: "clips[2].channels[0].times[7]".
@@ -39,6 +40,9 @@ public:
         compare("clipRoot", a.clipRoot, b.clipRoot);
         compareAll("materials", a.materials, b.materials, &CharacterDifferences::compareMaterials);
         compareAll("images", a.images, b.images, &CharacterDifferences::compareImages);
+        if (!overlooked.extras) {
+            compareExtras(a, b);
+        }
         if (!overlooked.messages) {
             compareAll("warnings", a.warnings, b.warnings, &CharacterDifferences::compareTexts);
             compareAll("damages", a.damages, b.damages, &CharacterDifferences::compareDamages);
@@ -74,6 +78,44 @@ private:
         if (!overlooked_.source) {
             compare("cage.sourceVertices", a.sourceVertices, b.sourceVertices);
         }
+    }
+    void compareExtras(const cage::Character& a, const cage::Character& b) {
+        compare("weights.jiggles", a.weights.jiggles, b.weights.jiggles);
+        compare("weights.cloths", a.weights.cloths, b.weights.cloths);
+        compare("jiggles", a.jiggles, b.jiggles);
+        compareAll("cloths", a.cloths, b.cloths, &CharacterDifferences::compareEqual<cage::Cloth>);
+        compareAll("expressions", a.expressions, b.expressions, &CharacterDifferences::compareExpressions);
+        compareAll("drivers", a.drivers, b.drivers, &CharacterDifferences::compareEqual<cage::PoseDriver>);
+        const cage::SpringBones &ownSprings = a.springBones, &otherSprings = b.springBones;
+        compareAll("springBones.springs", ownSprings.springs, otherSprings.springs,
+                   &CharacterDifferences::compareSprings);
+        check("springBones.colliderGroups", ownSprings.colliderGroups == otherSprings.colliderGroups);
+        compareAll("springBones.colliders", ownSprings.colliders, otherSprings.colliders,
+                   &CharacterDifferences::compareColliders);
+        compareAll("materialVariants", a.materialVariants, b.materialVariants, &CharacterDifferences::compareTexts);
+    }
+    void compareExpressions(const std::string& at, const cage::Expression& a, const cage::Expression& b) {
+        compare(at + ".name", a.name, b.name);
+        check(at + ".kind", a.kind == b.kind);
+        check(at + ".isBinary", a.isBinary == b.isBinary);
+        compare(at + ".targets", a.targets, b.targets);
+        compare(at + ".weights", a.weights, b.weights);
+        check(at + ".holds", a.holds == b.holds);
+    }
+    void compareSprings(const std::string& at, const cage::Spring& a, const cage::Spring& b) {
+        compare(at + ".name", a.name, b.name);
+        compare(at + ".center", a.center, b.center);
+        check(at + ".isTree", a.isTree == b.isTree);
+        compare(at + ".joints", a.joints, b.joints);
+        compare(at + ".colliderGroups", a.colliderGroups, b.colliderGroups);
+    }
+    void compareColliders(const std::string& at, const cage::SpringCollider& a, const cage::SpringCollider& b) {
+        compare(at + ".node", a.node, b.node);
+        check(at + ".shape", a.shape == b.shape);
+        check(at + ".inside", a.inside == b.inside);
+        compare(at + ".offset", a.offset, b.offset);
+        compare(at + ".tail", a.tail, b.tail);
+        compare(at + ".radius", a.radius, b.radius);
     }
     void compareParts(const std::string& at, const cage::Part& a, const cage::Part& b) {
         compare(at + ".name", a.name, b.name);
@@ -130,6 +172,9 @@ private:
         compareAll(at + ".channels", a.channels, b.channels, &CharacterDifferences::compareChannels);
         compareAll(at + ".markers", a.markers, b.markers, &CharacterDifferences::compareMarkers);
         compareAll(at + ".sharpness", a.sharpness, b.sharpness, &CharacterDifferences::compareCurves);
+        compare(at + ".packed.words", a.packed.words, b.packed.words);
+        compare(at + ".packed.coarseWords", a.packed.coarseWords, b.packed.coarseWords);
+        compare(at + ".packed.channelCount", a.packed.channelCount, b.packed.channelCount);
     }
     void compareTextures(const std::string& at, const cage::Texture& a, const cage::Texture& b) {
         compare(at + ".image", a.image, b.image);
@@ -168,6 +213,10 @@ private:
         compare(at + ".name", a.name, b.name);
         compare(at + ".mimeType", a.mimeType, b.mimeType);
         check(at + ".bytes", a.bytes == b.bytes);
+    }
+    template <class T>
+    void compareEqual(const std::string& at, const T& a, const T& b) {
+        check(at, a == b);
     }
     void compareTexts(const std::string& at, const std::string& a, const std::string& b) { compare(at, a, b); }
     void compareDamages(const std::string& at, const cage::Damage& a, const cage::Damage& b) {

@@ -74,8 +74,9 @@ void expectScene(const Json& scene, const std::string& out) {
         const std::string use = row["use"];
         rows.insert(use + ", " + row["poses"].get<std::string>() + ", " + row["characters"].dump());
         ASSERT_FALSE(row.contains("refused")) << row;
-        for (const char* key : {"dispatches", "barriers", "setUs", "recordUs", "frameMs", "vertices", "memoryBytes",
-                                "coefficientBytes", "vertexBytes", "allocations"}) {
+        for (const char* key :
+             {"dispatches", "barriers", "setUs", "recordUs", "recordAloneUs", "recordBehindWorkUs", "recordColdUs",
+              "frameMs", "vertices", "memoryBytes", "coefficientBytes", "vertexBytes", "allocations"}) {
             EXPECT_TRUE(finitePositive(row[key])) << key << " of " << row;
         }
         EXPECT_EQ(row.contains("unseenMs") && finitePositive(row["unseenMs"]), use == "view") << row;

@@ -744,6 +744,29 @@ TEST_F(Cli, ProfileOfAViewShowsItsShortfall) {
     expectFailure(run("profile cube.gltf --view --budget 50331649"), 2, "--budget"); // SUPPLE_MAX_VIEW_VERTICES + 1
 }
 
+TEST_F(Cli, ProfileTellsWhoHoldsMemoryAndWhatGoesBackUnseen) {
+    const Outcome outcome =
+        runOnDevice("profile cube.gltf --view --instances 3 --frames 2 --scheme pm --keep-unseen 2 --json p.json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(" of it goes back\n"), std::string::npos) << outcome.out;
+    const Json first = Json::parse(readText(file("p.json")))["runs"][0];
+    const Json& holders = first["holders"];
+    ASSERT_EQ(holders.size(), 3u);
+    uint64_t sum = 0;
+    for (const Json& holder : holders) {
+        sum += holder["deviceLocalBytes"].get<uint64_t>();
+    }
+    EXPECT_LE(sum, first["memory"]["deviceLocalBytes"]) << "the context has some of its own";
+    EXPECT_EQ(holders[0]["name"], "asset cube.gltf");
+    EXPECT_EQ(holders[0]["givenBackBytes"], 0);
+    EXPECT_EQ(holders[1]["name"], "group cube.gltf");
+    EXPECT_GT(holders[1]["coefficientsBytes"], 0) << "measured while all are seen";
+    EXPECT_GE(holders[1]["givenBackBytes"], holders[1]["coefficientsBytes"]);
+    EXPECT_LT(holders[1]["givenBackBytes"], holders[1]["deviceLocalBytes"]);
+    EXPECT_EQ(holders[2]["name"], "the view");
+    expectFailure(run("profile cube.gltf --keep-unseen 5"), 2, "--view");
+}
+
 TEST_F(Cli, ProfileHashesWhatAViewDrewLast) {
     for (const char* scheme : {"pm", "loop", "fragments"}) {
         std::vector<std::string> hashes;

@@ -120,6 +120,36 @@ TEST(ProfileReport, MemoryIsToldByPurposeTheLargestFirst) {
     EXPECT_EQ(json["allocations"], 7);
 }
 
+TEST(ProfileReport, WhoHoldsMemoryIsToldAndWhatOfItGoesBack) {
+    ProfileRun run = sampleRun();
+    run.holders.resize(2);
+    run.holders[0].name = "asset pip.glb";
+    run.holders[0].use.deviceLocal = run.holders[0].use.tables = 512 << 10;
+    run.holders[1].name = "group pip.glb";
+    run.holders[1].use.vertices = 3 << 20;
+    run.holders[1].use.cages = 1 << 20;
+    run.holders[1].use.deviceLocal = 4 << 20;
+    const RunSummary summary = summarizeRun(run);
+    EXPECT_NE(toTable(run, summary)
+                  .find("    asset pip.glb: 0.500 MiB (tables 0.500)\n"
+                        "    group pip.glb: 4.0 MiB (vertices 3.0, cages 1.0)\n"),
+              std::string::npos)
+        << toTable(run, summary);
+    EXPECT_FALSE(toJson({}, std::vector{run})["runs"][0]["holders"][1].contains("givenBackBytes"));
+    run.keptUnseen = 60;
+    run.holders[1].use.givenBack = 3 << 20;
+    EXPECT_NE(toTable(run, summary)
+                  .find("(vertices 3.0, cages 1.0), 3.0 of it goes back\n"
+                        "    What goes back does so when nobody is seen for 60 frames.\n"),
+              std::string::npos)
+        << toTable(run, summary);
+    const auto holders = toJson({}, std::vector{run})["runs"][0]["holders"];
+    EXPECT_EQ(holders[1]["name"], "group pip.glb");
+    EXPECT_EQ(holders[1]["verticesBytes"], 3 << 20);
+    EXPECT_EQ(holders[1]["givenBackBytes"], 3 << 20);
+    EXPECT_EQ(holders[0]["givenBackBytes"], 0);
+}
+
 TEST(ProfileReport, SaysWhatCostsMostAndWhatWouldHelp) {
     ProfileRun run = sampleRun();
     for (FrameSample& frame : run.frames) { // 4 ms more of a frame that took 6

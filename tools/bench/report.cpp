@@ -202,7 +202,9 @@ std::string kernelTable(const Json& rows) {
 
 /// Passes that some row lacks are blank there.
 std::string viewTable(const Json& rows) {
-    std::vector<std::string> head{"scheme", "characters", "vertices", "frame, ms", "all unseen, ms"}, passes;
+    std::vector<std::string> head{"scheme",    "characters",     "vertices",
+                                  "frame, ms", "all unseen, ms", "as many more unseen add, %"},
+        passes;
     for (const Json& row : rows) {
         for (const Json& pass : row["passes"]) {
             const std::string name = pass["pass"];
@@ -215,8 +217,13 @@ std::string viewTable(const Json& rows) {
     head.emplace_back("(level + place + attributes) / evaluate");
     Table table(head);
     for (const Json& row : rows) {
-        std::vector<std::string> cells{row["scheme"], row["characters"].dump(), row["vertices"].dump(),
-                                       number(row["frameMs"]), number(row["unseenMs"])};
+        std::vector<std::string> cells{
+            row["scheme"],
+            row["characters"].dump(),
+            row["vertices"].dump(),
+            number(row["frameMs"]),
+            number(row["unseenMs"]),
+            number(100.0 * (row["besideCulledMs"].get<double>() / row["aloneMs"].get<double>() - 1.0))};
         for (const std::string& name : passes) {
             const auto own = std::find_if(row["passes"].begin(), row["passes"].end(),
                                           [&](const Json& pass) { return pass["pass"] == name; });
@@ -230,13 +237,14 @@ std::string viewTable(const Json& rows) {
 
 std::string sceneTables(const Json& scene) {
     const auto megabytes = [](const Json& bytes) { return number(bytes.get<double>() / (1 << 20)); };
-    const std::vector<std::string> costs{"dispatches",        "barriers",      "copies",     "set, CPU us",
-                                         "record, CPU us",    "frame, ms",     "vertices",   "memory, MiB",
-                                         "coefficients, MiB", "vertices, MiB", "allocations"};
+    const std::vector<std::string> costs{
+        "dispatches", "barriers",  "copies",   "set, CPU us", "record, CPU us",    "alone",         "behind work",
+        "cold",       "frame, ms", "vertices", "memory, MiB", "coefficients, MiB", "vertices, MiB", "allocations"};
     const auto addCosts = [&](const Json& row, std::vector<std::string>& cells) {
         cells.insert(cells.end(),
                      {row["dispatches"].dump(), row["barriers"].dump(), row["copies"].dump(), number(row["setUs"]),
-                      number(row["recordUs"]), number(row["frameMs"]), row["vertices"].dump(),
+                      number(row["recordUs"]), number(row["recordAloneUs"]), number(row["recordBehindWorkUs"]),
+                      number(row["recordColdUs"]), number(row["frameMs"]), row["vertices"].dump(),
                       megabytes(row["memoryBytes"]), megabytes(row["coefficientBytes"]), megabytes(row["vertexBytes"]),
                       row["allocations"].dump()});
     };

@@ -14,7 +14,15 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr uint32_t kSceneWarmFrames = 3;
+constexpr uint32_t kRecordings = 3; ///< that are timed apart, for each frame that is measured
 constexpr uint32_t kMostViews = 4;
+/// What a game writes between two recordings: nothing, more than a core's own caches hold, more than all hold.
+struct HostWork {
+    const char* key;
+    size_t bytes;
+};
+constexpr HostWork kHostWork[] = {
+    {"recordAloneUs", 0}, {"recordBehindWorkUs", size_t{4} << 20}, {"recordColdUs", size_t{64} << 20}};
 
 /// What a view has to do for itself, also where it shares poses, cages and coefficients with others.
 constexpr SupplePass kPassesOfAView[] = {SUPPLE_PASS_BOUNDS, SUPPLE_PASS_LIST,       SUPPLE_PASS_LEVEL,
@@ -83,6 +91,25 @@ Result<SceneTimes> timePasses(SceneStage& stage, uint32_t count) {
     return times;
 }
 
+/// Medians of frames that are recorded and never run: on CPU devices their passes would take the caches.
+Result<Json> timeRecording(SceneStage& stage, uint32_t count) {
+    Json result;
+    for (const HostWork& work : kHostWork) {
+        std::vector<double> times;
+        for (uint32_t i = 0; i < kSceneWarmFrames + count; ++i) {
+            const Result<double> time = stage.recordBehindWork(work.bytes);
+            if (!time) {
+                return time.error();
+            }
+            if (i >= kSceneWarmFrames) {
+                times.push_back(*time);
+            }
+        }
+        result[work.key] = tools::summarize(times).median;
+    }
+    return result;
+}
+
 double wholeFrame(const PassTimes& frame) {
     return frame.whole;
 }
@@ -90,7 +117,8 @@ double wholeFrame(const PassTimes& frame) {
 /// Commands, times and memory of what stands on the stage.
 Result<Json> measureStage(SceneStage& stage, const SceneDesc& desc) {
     const Result<HostTimes> host = timeHost(stage, desc.frames);
-    const Result<SceneTimes> times = host ? timePasses(stage, desc.frames) : Result<SceneTimes>(host.error());
+    const Result<Json> recording = host ? timeRecording(stage, kRecordings * desc.frames) : Result<Json>(host.error());
+    const Result<SceneTimes> times = recording ? timePasses(stage, desc.frames) : Result<SceneTimes>(recording.error());
     const Result<uint64_t> vertices = times ? stage.vertices() : Result<uint64_t>(times.error());
     const Result<SuppleMemoryUse> memory = vertices ? stage.memory() : Result<SuppleMemoryUse>(vertices.error());
     if (!memory) {
@@ -102,20 +130,22 @@ Result<Json> measureStage(SceneStage& stage, const SceneDesc& desc) {
         passes.push_back(
             {{"pass", name}, {"ms", medianOf(times->frames, [&](const PassTimes& f) { return f.of(name); })}});
     }
-    return Json{{"dispatches", host->commands.dispatches},
-                {"barriers", host->commands.barriers},
-                {"copies", host->commands.copies},
-                {"setUs", host->setMicroseconds},
-                {"recordUs", host->recordMicroseconds},
-                {"frameMs", medianOf(times->frames, wholeFrame)},
-                {"passes", passes},
-                {"ownMs", tools::summarize(times->own).median},
-                {"repeatedMs", tools::summarize(times->repeated).median},
-                {"vertices", *vertices},
-                {"memoryBytes", memory->deviceLocal + memory->hostVisible},
-                {"coefficientBytes", memory->coefficients},
-                {"vertexBytes", memory->vertices + memory->streams},
-                {"allocations", stage.countedMemory().held()}};
+    Json row{{"dispatches", host->commands.dispatches},
+             {"barriers", host->commands.barriers},
+             {"copies", host->commands.copies},
+             {"setUs", host->setMicroseconds},
+             {"recordUs", host->recordMicroseconds},
+             {"frameMs", medianOf(times->frames, wholeFrame)},
+             {"passes", passes},
+             {"ownMs", tools::summarize(times->own).median},
+             {"repeatedMs", tools::summarize(times->repeated).median},
+             {"vertices", *vertices},
+             {"memoryBytes", memory->deviceLocal + memory->hostVisible},
+             {"coefficientBytes", memory->coefficients},
+             {"vertexBytes", memory->vertices + memory->streams},
+             {"allocations", stage.countedMemory().held()}};
+    row.update(*recording);
+    return row;
 }
 
 Result<Json> measureRow(SceneStage& stage, const SceneDesc& desc, SceneUse use, uint32_t characters) {

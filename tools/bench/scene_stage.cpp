@@ -228,6 +228,30 @@ Result<SceneFrame> SceneStage::frame(uint32_t recordFlags) {
     return result;
 }
 
+Result<double> SceneStage::recordBehindWork(size_t bytes) {
+    work_.resize(bytes / sizeof(uint64_t));
+    Status status = pose();
+    for (uint64_t& word : work_) {
+        word += frame_;
+    }
+    auto info = VkCommandBufferAllocateInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    info.commandPool = device_.commandPool();
+    info.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    if (vkAllocateCommandBuffers(device_.handle(), &info, &commands) != VK_SUCCESS ||
+        vkBeginCommandBuffer(commands, &begin) != VK_SUCCESS) {
+        return Error{ErrorCode::deviceMemory, "no command buffer"};
+    }
+    constexpr SuppleSyncScope kUse{VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
+    const double before = processSeconds();
+    status = status ? check(context_.record(commands, recorded_, kUse, kUse, 0), "suppleRecord") : status;
+    const double seconds = processSeconds() - before;
+    vkFreeCommandBuffers(device_.handle(), device_.commandPool(), 1, &commands);
+    status = status ? beginFrame() : status;
+    return status ? Result<double>(1e6 * seconds) : status.error();
+}
+
 Result<std::vector<SuppleTiming>> SceneStage::timings() {
     std::vector<SuppleTiming> all;
     const Status status = check(context_.timings(all), "suppleGetTimings");

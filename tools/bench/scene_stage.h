@@ -49,6 +49,9 @@ public:
 
     /// Poses, records, submits and waits.
     [[nodiscard]] Result<SceneFrame> frame(uint32_t recordFlags = 0);
+    /// CPU time of suppleRecord, in microseconds, in a frame that never runs. Before it the host does work of its own,
+    /// which writes so many bytes. Some frames must have run since build().
+    [[nodiscard]] Result<double> recordBehindWork(size_t bytes);
     /// Of the last frame, which was recorded with SUPPLE_RECORD_TIMINGS.
     [[nodiscard]] Result<std::vector<SuppleTiming>> timings();
     /// Whether a timing is of a view that addView() has added.
@@ -95,6 +98,7 @@ private:
     std::vector<SuppleGroup> recorded_;
     uint64_t frame_ = 0;
     double time_ = 0.0;
+    std::vector<uint64_t> work_; ///< memory of recordBehindWork
 };
 
 } // namespace supple::bench

@@ -115,7 +115,8 @@ void judgeScene(const Json& scene,
             }
         }
         if (row["poses"] == "played") { // else poses are sampled while they are recorded
-            atMost(count + "recording, CPU us", where, row["recordUs"], kSceneRecordMicroseconds);
+            atMost(count + "recording behind other work, CPU us", where, row["recordBehindWorkUs"],
+                   kSceneRecordMicroseconds);
         }
         atMost(count + "allocations", where, row["allocations"], kSceneAllocations);
         if (row.contains("unseenMs")) {
@@ -164,6 +165,8 @@ Json judge(const Json& result) {
     }
     for (const Json& row : result.value("views", Json::array())) {
         add("level, place and attributes / evaluate, in a view", row["scheme"], row["aroundEvaluate"], kAroundEvaluate);
+        add("frame with as many more unseen / without them, in a view", row["scheme"],
+            row["besideCulledMs"].get<double>() / row["aloneMs"].get<double>(), 1.0 + kUnseen);
         add("frame with all unseen / with all seen, in a view", row["scheme"],
             row["unseenMs"].get<double>() / row["frameMs"].get<double>(), kUnseen);
     }

@@ -19,6 +19,7 @@ constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BI
 constexpr VkAccessFlags2 kRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
 constexpr VkAccessFlags2 kWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 constexpr float kCameraDistance = 4.0f, kPixelsPerUnit = 1000.0f;
+constexpr float kEyeDistance = 1000.0f; ///< of a camera that looks ahead or away
 
 void computeBarrier(VkCommandBuffer commands) {
     host::memoryBarrier(commands, {kCompute, kWrite}, {kCompute, kRead | kWrite});
@@ -63,6 +64,8 @@ struct Workbench::Inside {
     uint64_t frame = 0;
 
     [[nodiscard]] runtime::Group& group(SuppleGroup id) const { return *context->groups.find(id.id); }
+    /// From far away towards the origin (1) or away from it (-1).
+    void look(SuppleView view, float ahead) const;
 };
 
 Workbench::Workbench() : inside_(std::make_unique<Inside>()) {}
@@ -203,13 +206,25 @@ Result<SuppleView> Workbench::createView(SuppleViewDesc desc) {
     return SuppleView{*id};
 }
 
-void Workbench::lookAway(SuppleView view) {
+void Workbench::Inside::look(SuppleView view, float ahead) const {
     SuppleCameraDesc camera = benchCamera();
-    const glm::vec3 eye(0.0f, 0.0f, 1000.0f);
-    const glm::mat4 seen =
-        glm::perspectiveRH_ZO(1.0f, 1.0f, 0.1f, 1e4f) * glm::lookAtRH(eye, 2.0f * eye, glm::vec3(0.0f, 1.0f, 0.0f));
+    const glm::vec3 eye(0.0f, 0.0f, kEyeDistance);
+    const glm::mat4 seen = glm::perspectiveRH_ZO(1.0f, 1.0f, 0.1f, 1e4f) *
+                           glm::lookAtRH(eye, (1.0f - ahead) * eye, glm::vec3(0.0f, 1.0f, 0.0f));
     std::copy_n(&seen[0][0], 16, camera.viewProjection);
-    inside_->context->views.find(view.id)->setCamera(camera);
+    context->views.find(view.id)->setCamera(camera);
+}
+
+void Workbench::lookAway(SuppleView view) {
+    inside_->look(view, -1.0f);
+}
+
+void Workbench::lookAhead(SuppleView view) {
+    inside_->look(view, 1.0f);
+}
+
+void Workbench::moveBehind(SuppleGroup group, uint32_t slot) {
+    inside_->group(group).poses().setPosition(slot, glm::dvec3(0.0, 0.0, 2.0 * kEyeDistance));
 }
 
 void Workbench::destroy(SuppleAsset asset) {

@@ -63,6 +63,10 @@ public:
     [[nodiscard]] Result<SuppleView> createView(SuppleViewDesc desc);
     /// The camera sees what is far behind it alone, and no longer what stands about the origin.
     void lookAway(SuppleView view);
+    /// The camera sees what stands about the origin alone.
+    void lookAhead(SuppleView view);
+    /// A camera that looks ahead does not see the instance in the slot any more.
+    void moveBehind(SuppleGroup group, uint32_t slot);
     /// Their memory is freed in a later frame.
     void destroy(SuppleAsset asset);
     void destroy(SuppleGroup group);

@@ -51,6 +51,11 @@ std::string memoryText(const SuppleMemoryUse& use) {
            std::to_string(use.allocationCount) + (use.allocationCount == 1 ? " allocation" : " allocations");
 }
 
+std::string heldText(const SuppleMemoryUse& use) {
+    return mebibytes(use.deviceLocal) + " MiB" + listed(use, kOnDevice) +
+           (use.givenBack > 0 ? ", " + mebibytes(use.givenBack) + " of it goes back" : "");
+}
+
 std::vector<MemoryPurpose> memoryPurposes(const SuppleMemoryUse& use) {
     std::vector<MemoryPurpose> purposes;
     for (const Purpose& purpose : kOnDevice) {

@@ -368,6 +368,13 @@ void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& a
         ->needs(view)
         ->check(CLI::Range(0u, 4095u))
         ->capture_default_str();
+    command
+        ->add_option("--keep-unseen", options->keepUnseen,
+                     "Frames after which groups that nobody sees give memory back. When the others are measured the "
+                     "camera looks away, and the table says what goes back; 0: all stays")
+        ->needs(view)
+        ->check(CLI::Range(0u, 100000u))
+        ->capture_default_str();
     command->add_option("--hashes", options->hashes, "Write hashes of the patches that the view drew last")
         ->needs(view)
         ->type_name("OUT.txt");

@@ -11,8 +11,9 @@ namespace supple::tools {
 namespace {
 
 constexpr uint32_t kFramesInFlight = 2;
-constexpr size_t kMaxTimings = 1024;  ///< passes of a frame, of all groups
-constexpr uint32_t kWarmUpFrames = 3; ///< drivers finish compiling, caches fill
+constexpr size_t kMaxTimings = 1024;      ///< passes of a frame, of all groups
+constexpr uint32_t kWarmUpFrames = 3;     ///< drivers finish compiling, caches fill
+constexpr uint32_t kFramesUntilFreed = 3; ///< behind those that groups keep unseen
 
 } // namespace
 
@@ -123,6 +124,7 @@ Result<ProfileRun> Profiler::run(std::span<const host::CharacterFile> files, con
         status = hashes ? success() : Status(hashes.error());
         result.hashes = hashes ? std::move(*hashes) : std::string();
     }
+    status = status ? findHolders(stage, result) : status;
     const Status ended = stage.destroy();
     status = status ? ended : status;
     if (!status) {
@@ -133,6 +135,27 @@ Result<ProfileRun> Profiler::run(std::span<const host::CharacterFile> files, con
         return Error{ErrorCode::vulkan, result.file + ": the device reported no timings"};
     }
     return result;
+}
+
+Status Profiler::findHolders(ProfileStage& stage, ProfileRun& run) {
+    Result<std::vector<MemoryHolder>> holders = stage.holders();
+    if (!holders) {
+        return holders.error();
+    }
+    run.holders = std::move(*holders);
+    run.keptUnseen = options_.keepUnseen;
+    if (run.keptUnseen == 0) {
+        return success();
+    }
+    Status status = stage.lookAway();
+    for (uint32_t i = 0; status && i < run.keptUnseen + kFramesUntilFreed; ++i) {
+        status = session_.context->evaluate(stage.groups());
+    }
+    holders = status ? stage.holders() : Result<std::vector<MemoryHolder>>(status.error());
+    for (size_t i = 0; holders && i < holders->size(); ++i) {
+        run.holders[i].use.givenBack = (*holders)[i].use.givenBack;
+    }
+    return holders ? success() : Status(holders.error());
 }
 
 void Profiler::readClocks(ProfileRun& run) const {

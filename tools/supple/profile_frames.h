@@ -30,6 +30,8 @@ private:
     void readClocks(ProfileRun& run) const;
     [[nodiscard]] Status frames(ProfileStage& stage, ProfileRun& run);
     [[nodiscard]] Status frame(ProfileRing& ring, uint32_t index, ProfileStage& stage, ProfileRun& run);
+    /// Who holds what; and, if groups give memory back, how much of it goes.
+    [[nodiscard]] Status findHolders(ProfileStage& stage, ProfileRun& run);
     /// Adds the timings of the newest finished frame to its sample, if it is one of this run's measured frames, and
     /// what the view drew in it.
     [[nodiscard]] Status collect(const ProfileStage& stage, ProfileRun& run);

@@ -159,6 +159,31 @@ void addFrame(const FrameSample& frame, int process, const std::function<double(
     events.push_back(traceCounter("bytes written", process, at, static_cast<double>(bytes)));
 }
 
+/// A line each, of what is on the device.
+std::string holdersText(const ProfileRun& run) {
+    std::string text;
+    for (const MemoryHolder& holder : run.holders) {
+        text += "    " + holder.name + ": " + heldText(holder.use) + "\n";
+    }
+    return text + (run.keptUnseen > 0
+                       ? formatted("    What goes back does so when nobody is seen for %u frames.\n", run.keptUnseen)
+                       : "");
+}
+
+/// Of every holder what memoryJson() says, and what goes back if nobody is seen.
+Json holdersJson(const ProfileRun& run) {
+    Json holders = Json::array();
+    for (const MemoryHolder& holder : run.holders) {
+        Json entry = {{"name", holder.name}};
+        entry.update(memoryJson(holder.use));
+        if (run.keptUnseen > 0) {
+            entry["givenBackBytes"] = holder.use.givenBack;
+        }
+        holders.push_back(std::move(entry));
+    }
+    return holders;
+}
+
 } // namespace
 
 std::string drawnText(const ProfileRun& run, const RunSummary& summary) {
@@ -179,7 +204,7 @@ std::string toTable(const ProfileRun& run, const RunSummary& summary) {
         run.file + formatted(": scheme %s, %s, clip ", run.scheme.c_str(), fineness.c_str()) + run.clip +
         formatted(", %u instance%s of %s%u patches, %zu frames\n", run.instances, run.instances == 1 ? "" : "s",
                   run.budget > 0 ? "up to " : "", run.patches, run.frames.size());
-    table += "  memory: " + memoryText(run.memory) + "\n";
+    table += "  memory: " + memoryText(run.memory) + "\n" + holdersText(run);
     table += formatted("  %-12s %10s %10s %10s %10s %12s %13s %10s\n", "pass", "GPU ms", "p95", "max", "CPU ms",
                        "points", "bytes", "Mpoints/s");
     for (const PassSummary& pass : summary.passes) {
@@ -217,6 +242,7 @@ nlohmann::ordered_json toJson(const Machine& machine, std::span<const ProfileRun
                       {"patches", run.patches},
                       {"frames", run.frames.size()},
                       {"memory", memoryJson(run.memory)},
+                      {"holders", holdersJson(run)},
                       {"passes", Json::array()}};
         for (const PassSummary& pass : summary.passes) {
             entry["passes"].push_back(toJson(pass));

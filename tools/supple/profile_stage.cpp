@@ -83,13 +83,18 @@ Status ProfileStage::createView(std::span<const host::CharacterFile> files) {
         radius = std::max(radius, host::boundsOf(file.character.cage.positions).radius());
     }
     spacing_ = radius;
+    return setCamera(false);
+}
+
+Status ProfileStage::setCamera(bool away) const {
+    const float radius = spacing_;
     // Before the middle of the square's edge, somewhat above: some instances fill the picture, some are small, and
     // those at the sides of the first rows are out of it.
     const float reach = 0.5f * spacing_ * static_cast<float>(sideOf(options_.instances));
-    const glm::vec3 eye(0.0f, 1.5f * radius, reach + 3.0f * radius);
+    const glm::vec3 eye(0.0f, 1.5f * radius, reach + 3.0f * radius), ahead(0.0f, 0.5f * radius, 0.0f);
     const glm::mat4 viewProjection =
         glm::perspectiveRH_ZO(kFieldOfView, kWidth / kHeight, kNear * radius, kFar * radius) *
-        glm::lookAtRH(eye, glm::vec3(0.0f, 0.5f * radius, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f));
+        glm::lookAtRH(eye, away ? 2.0f * eye - ahead : ahead, glm::vec3(0.0f, 1.0f, 0.0f));
     SuppleCameraDesc camera{};
     camera.structSize = sizeof camera;
     std::memcpy(camera.position, &eye, sizeof camera.position);
@@ -107,6 +112,7 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     }
     Subject& subject = subjects_.emplace_back();
     subject.asset = *asset;
+    subject.name = printable(utf8Text(utf8Path(file.path).filename()));
     const std::vector<cage::Clip>& clips = file.character.clips;
     const Result<uint32_t> clip = playedClip(file.character, options_.clip);
     if (!clip) {
@@ -132,6 +138,7 @@ Status ProfileStage::createGroup(const host::CharacterFile& file, const std::str
     }
     desc.poseSource = options_.plays() ? SUPPLE_POSES_PLAYBACK : SUPPLE_POSES_SET;
     desc.view = view_;
+    desc.keepUnseenFrames = options_.keepUnseen;
     SuppleGroup group{};
     Status status = check(suppleCreateGroup(handle(), &desc, &group), "suppleCreateGroup");
     if (!status) {
@@ -275,6 +282,37 @@ Status ProfileStage::setPoses(uint32_t frame) {
         }
     }
     return status;
+}
+
+Status ProfileStage::lookAway() const {
+    return setCamera(true);
+}
+
+Result<std::vector<MemoryHolder>> ProfileStage::holders() const {
+    std::vector<MemoryHolder> holders;
+    Status status = success();
+    const auto add = [&](const std::string& name, const auto& call, const char* callName) {
+        MemoryHolder& holder = holders.emplace_back();
+        holder.name = name;
+        holder.use.structSize = sizeof holder.use;
+        status = status ? check(call(&holder.use), callName) : status;
+    };
+    for (size_t k = 0; k < subjects_.size(); ++k) {
+        add(
+            "asset " + subjects_[k].name,
+            [&](SuppleMemoryUse* use) { return suppleGetAssetMemory(handle(), subjects_[k].asset, use); },
+            "suppleGetAssetMemory");
+        add(
+            "group " + subjects_[k].name,
+            [&](SuppleMemoryUse* use) { return suppleGetGroupMemory(handle(), groups_[k], use); },
+            "suppleGetGroupMemory");
+    }
+    if (view_.id != 0) {
+        add(
+            "the view", [&](SuppleMemoryUse* use) { return suppleGetViewMemory(handle(), view_, use); },
+            "suppleGetViewMemory");
+    }
+    return status ? Result<std::vector<MemoryHolder>>(std::move(holders)) : status.error();
 }
 
 std::optional<SuppleViewStatistics> ProfileStage::statistics() const {

@@ -26,6 +26,7 @@ struct ProfileOptions {
     bool view = false;
     uint32_t budget = 1000000; ///< of the view
     uint32_t coefficients = 0; ///< of the view, MiB that its instances share; 0: each has its own
+    uint32_t keepUnseen = 0;   ///< in a view, frames: groups that nobody sees for so long give memory back; 0: none
     std::string json, csv, trace, html;
     std::vector<std::string> sweeps;    ///< "instances=1,10", "rate=4,8": as typed
     std::string compare;                ///< an earlier result
@@ -55,17 +56,23 @@ public:
     [[nodiscard]] Status setPoses(uint32_t frame);
     /// Index of ProfileRun::surfaces.
     [[nodiscard]] size_t surfaceOf(SuppleGroup group, uint32_t surface) const;
+    /// What assets, groups and the view hold now.
+    [[nodiscard]] Result<std::vector<MemoryHolder>> holders() const;
+    /// The view's camera no longer sees any instance.
+    [[nodiscard]] Status lookAway() const;
     /// Of the newest completed frame, if there is one and a view.
     [[nodiscard]] std::optional<SuppleViewStatistics> statistics() const;
 
 private:
     struct Subject {
+        std::string name; ///< of the file
         SuppleAsset asset{};
         std::vector<SuppleInstance> instances;
         uint32_t clip = SUPPLE_BIND_POSE;
         double clipDuration = 0.0;
     };
     [[nodiscard]] Status createView(std::span<const host::CharacterFile> files);
+    [[nodiscard]] Status setCamera(bool away) const;
     /// What the group is, for the run's report.
     [[nodiscard]] Status report(SuppleGroup group, const host::CharacterFile& file, ProfileRun& run);
     [[nodiscard]] Result<ProfiledSurface> reportSurface(SuppleGroup group, uint32_t index,
@@ -83,7 +90,7 @@ private:
     host::Context& context_;
     const ProfileOptions& options_;
     SuppleView view_{};
-    float spacing_ = 1.0f; ///< of the crowd
+    float spacing_ = 1.0f; ///< of the crowd, and the radius of a character
     std::vector<Subject> subjects_;
     std::vector<SuppleGroup> groups_;   ///< in their order
     std::vector<size_t> firstSurfaces_; ///< of each in ProfileRun::surfaces: the group as a whole, then its surfaces

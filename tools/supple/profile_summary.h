@@ -58,6 +58,12 @@ struct FrameSample {
     DrawnSample drawn;                          ///< in a view
 };
 
+/// Who has memory, and how much. `use.givenBack`: what goes back while nobody is seen.
+struct MemoryHolder {
+    std::string name; ///< "asset pip.glb"
+    SuppleMemoryUse use{};
+};
+
 /// One file under one scheme; or several in a view.
 struct ProfileRun {
     std::string file; ///< or all of them
@@ -66,10 +72,12 @@ struct ProfileRun {
     uint32_t rate = 0;
     uint32_t patchRate = 0; ///< segments along a patch edge: less than the rate where an edge of the cage has several
     uint32_t instances = 0;
-    bool playback = false;    ///< poses on the device
-    uint32_t budget = 0;      ///< of the view, surface vertices; 0: no view
-    uint32_t patches = 0;     ///< an instance; of several kinds the most
-    SuppleMemoryUse memory{}; ///< of the context, after the last frame
+    bool playback = false;             ///< poses on the device
+    uint32_t budget = 0;               ///< of the view, surface vertices; 0: no view
+    uint32_t patches = 0;              ///< an instance; of several kinds the most
+    SuppleMemoryUse memory{};          ///< of the context, after the last frame
+    std::vector<MemoryHolder> holders; ///< assets, groups, the view; what else there is belongs to the context
+    uint32_t keptUnseen = 0;           ///< frames after which groups give memory back; 0: they keep it
     std::vector<ProfiledSurface> surfaces;
     std::vector<FrameSample> frames;
     /// The device's clock and the run's, in nanoseconds, before the first frame and after the last. Empty: the device

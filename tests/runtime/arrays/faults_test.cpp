@@ -73,7 +73,7 @@ TEST(ArrayFaults, TheTubeIsSound) {
     const Result<cage::Character> read = readTube([](Arrays&) {});
     ASSERT_TRUE(read.ok()) << read.error().message;
     EXPECT_EQ(read->warnings, Strings());
-    EXPECT_EQ(CharacterDifferences(tube(), *read, {true, true}).found(), Strings());
+    EXPECT_EQ(CharacterDifferences(tube(), *read, {true, true, true}).found(), Strings());
 }
 
 TEST(ArrayFaults, OfNodes) {
@@ -266,7 +266,7 @@ TEST(ArrayRepairs, WeightsAreNormalised) {
         weights[1] = 0.0f;
     });
     ASSERT_TRUE(read.ok()) << read.error().message;
-    EXPECT_EQ(CharacterDifferences(tube(), *read, {true, true}).found(), Strings());
+    EXPECT_EQ(CharacterDifferences(tube(), *read, {true, true, true}).found(), Strings());
     EXPECT_EQ(read->warnings,
               (Strings{"part 0 influences: normalised: they do not sum to 1 at 1 vertex, largest deviation 0.5",
                        "part 0 influences: all zero at 1 vertex; bound to the first joint named there"}));
@@ -370,7 +370,7 @@ TEST(ArrayVersions, ElementsLieAsFarApartAsTheySay) {
     };
     const Result<cage::Character> read = readTube(longer);
     ASSERT_TRUE(read.ok()) << read.error().message;
-    EXPECT_EQ(CharacterDifferences(tube(), *read, {true, true}).found(), Strings());
+    EXPECT_EQ(CharacterDifferences(tube(), *read, {true, true, true}).found(), Strings());
     nodes.clear();
     const Result<cage::Character> used = readTube([&](Arrays& a) {
         longer(a);

@@ -11,6 +11,7 @@
 #include "tests/support/shared_assets.h"
 
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <numeric>
@@ -21,7 +22,7 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-constexpr Overlooked kOfArrays{true, true};
+constexpr Overlooked kOfArrays{true, true, true};
 
 /// All characters, and files that have what these lack: unnormalised weights, all interpolations, many parts.
 Strings allFiles() {
@@ -64,6 +65,44 @@ void expectTellsArrays(const cage::Character& character) {
     EXPECT_EQ(character.sourceVertexCount, character.cage.vertexCount());
     EXPECT_EQ(character.seamVertexCount, 0u);
     EXPECT_TRUE(character.damages.empty());
+}
+
+/// What a change of a character is called.
+Strings differencesOf(const cage::Character& character, const std::function<void(cage::Character&)>& change) {
+    cage::Character changed = character;
+    change(changed);
+    return CharacterDifferences(character, changed).found();
+}
+
+TEST(CharacterDifferences, AreFoundInWhatMovesBesideSkinTargetsAndClips) {
+    using cage::Character;
+    Character character = readFile(kPip, false);
+    character.weights.jiggles.resize(character.cage.vertexCount());
+    character.weights.cloths.resize(character.cage.vertexCount());
+    character.weights.jiggles[3] = {0, 0.5f};
+    character.weights.cloths[7] = {0, 1.0f};
+    character.jiggles.resize(1);
+    character.cloths.resize(1);
+    character.expressions.resize(1);
+    character.drivers.resize(1);
+    character.springBones = {{cage::Spring{}}, {{0}}, {cage::SpringCollider{}}};
+    character.springBones.springs[0].joints.resize(2);
+    EXPECT_EQ(differencesOf(character, [](Character&) {}), Strings());
+    const auto expect = [&](const char* name, const std::function<void(Character&)>& change) {
+        EXPECT_EQ(differencesOf(character, change), Strings{name});
+    };
+    expect("weights.jiggles[3]", [](Character& c) { c.weights.jiggles[3].weight = 0.25f; });
+    expect("weights.cloths[7]", [](Character& c) { c.weights.cloths[7] = {}; });
+    expect("jiggles[0]", [](Character& c) { c.jiggles[0].frequency = 2.0f; });
+    expect("jiggles.size()", [](Character& c) { c.jiggles.clear(); });
+    expect("cloths[0]", [](Character& c) { c.cloths[0].volume = true; });
+    expect("cloths[0]", [](Character& c) { c.cloths[0].colliders = {0}; });
+    expect("expressions[0].weights.size()", [](Character& c) { c.expressions[0].weights = {1.0f}; });
+    expect("drivers[0]", [](Character& c) { c.drivers[0].width = 1.0f; });
+    expect("springBones.springs[0].joints[1]", [](Character& c) { c.springBones.springs[0].joints[1].drag = 0.75f; });
+    expect("springBones.colliderGroups", [](Character& c) { c.springBones.colliderGroups[0].clear(); });
+    expect("springBones.colliders[0].radius", [](Character& c) { c.springBones.colliders[0].radius = -0.0f; });
+    expect("materialVariants.size()", [](Character& c) { c.materialVariants = {"blue"}; });
 }
 
 TEST(CharacterArrays, AreTheCharacterOfTheFile) {
