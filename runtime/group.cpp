@@ -147,8 +147,8 @@ Status Group::createListing(const GroupShared& shared) {
     const uint32_t lists = view_ != nullptr ? Culling::lists(drawnParts_.count(), surfaces_.ladder().count) : 2;
     // Texels of an instance, in the lists of instances and in that of poses.
     const StateRoom room = follows() ? StateRoom{} : instances_->room();
-    const bool plays = !follows() && instances_->source() == SUPPLE_POSES_PLAYBACK;
-    const uint32_t texels = std::max(lists, plays ? PoseList::wordsOfInstance(room) : 0);
+    const bool listsPoses = !follows() && (instances_->source() == SUPPLE_POSES_PLAYBACK || room.soft);
+    const uint32_t texels = std::max(lists, listsPoses ? PoseList::wordsOfInstance(room) : 0);
     if (!device.mapping.wide && uint64_t{texels} * capacity > device.limits.maxTexelBufferElements) {
         return Error{ErrorCode::limit, std::to_string(capacity) +
                                            " instances exceed the device's texel-buffer elements: the largest "
@@ -506,8 +506,8 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     leftOutAll_ = listing_.leavesOutAll();
     points_.noteAsked(frame.number);
     bool changed = listing_.changed(slots());
-    PassCost cost =
-        follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.time, frame.origin);
+    const HostPoses::Frame own{frame.number, frame.time, leftOutAll_};
+    PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, own, frame.origin);
     const glm::vec3 step(frame.origin - origin_);
     origin_ = frame.origin;
     if (boxes_.areAskedFor() && !drawnElsewhere()) { // else nobody looks at them

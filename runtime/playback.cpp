@@ -64,7 +64,7 @@ Status Playback::create(const Desc& desc) {
         rates_ = UpdateRates(desc.capacity);
     }
     if (desc.room.hasSteps()) {
-        springs_ = SpringClock(desc.capacity);
+        springs_ = SpringClock(desc.capacity, desc.room.cloths);
     }
     if (desc.room.springs) {
         bounds_.setSwinging(table.swinging);
@@ -477,6 +477,7 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
 void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match) {
     time_ = other.time_;
     origin_ = other.origin_;
+    springs_.takeWind(other.springs_);
     masks_.takeOver(other.masks_, match);
     if (match.same) {
         adds_ = other.adds_;
@@ -564,20 +565,12 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
     }
     const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
     const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
-    const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
-    const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
-    const bool hasMoves = due.moves || hasCloths_; // which ask where down is
-    const uint32_t begins = due.settles ? kSpringSettles | due.skipped << kSpringSkippedShift : 0;
-    list_.addSwinging(slotInWindow, due.count | jump | number | begins, due.part, hasMoves);
+    list_.addSteps(slotInWindow, due, hasCloths_);
     for (uint32_t k = 0; k < due.count; ++k) {
-        const double time = springTime(due.first + k);
         const std::span<const uint32_t> played = due.before[k] ? states_.before(slot) : states_.words(slot);
         const bool travels = (played[1] & kStateTravels) != 0;
-        list_.addStep(slotInWindow, (due.before[k] ? kPosedBefore : 0) | (travels ? kPosedTravels : 0), time);
-        firstStep_ = std::min(firstStep_, time);
-        if (hasMoves) {
-            list_.addMove(due.rows[k], due.down[k]);
-        }
+        list_.flagStep(k, (due.before[k] ? kPosedBefore : 0) | (travels ? kPosedTravels : 0));
+        firstStep_ = std::min(firstStep_, springTime(due.first + k));
     }
 }
 
@@ -710,7 +703,7 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
     }
 }
 
-Playback::StepPoses Playback::stepPoses() const {
+StepPoses Playback::stepPoses() const {
     return {ends_.buffer(),     scratch_.buffer(),   list_.buffer(),
             endBytes(),         scratchBytes(),      list_.bytes(),
             push_.endStride,    push_.scratchStride, kAffineElements * push_.nodeCount,

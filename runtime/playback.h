@@ -85,8 +85,10 @@ public:
     [[nodiscard]] bool listsPoses() const { return list_.isTaken(); }
     /// Its springs see no movement from where it stood to where it stands in the next frame.
     void teleport(uint32_t slot) { springs_.jump(slot, time_); }
-    /// All begin anew: tails at rest in the pose.
-    void settleSprings() { springs_.settleAll(); }
+    /// Velocity in the world, from the group's time on.
+    void setWind(const glm::dvec3& velocity) { springs_.setWind(velocity, time_); }
+    /// All that runs steps begins anew.
+    void settleSteps() { springs_.settleAll(); }
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setPosition(uint32_t slot, const glm::dvec3& position);
     /// Where the coordinates of the device begin. A change places the instances of the slots below `end` anew; others
@@ -161,6 +163,7 @@ public:
             }
             list_.endWindow(w);
         }
+        springs_.endFrame(frame);
     }
     VkDeviceSize recordList(VkCommandBuffer commandBuffer, uint64_t frame) {
         return list_.recordUpload(*device_, commandBuffer, frame);
@@ -182,13 +185,7 @@ public:
         return listsPoses() ? list_.poseCount() : windows.visible;
     }
 
-    /// Where a frame's steps are, for the stage that reads them; if hasSoft(). Buffers have so many bytes an
-    /// instance; strides and places are elements.
-    struct StepPoses {
-        VkBuffer poses = VK_NULL_HANDLE, scratch = VK_NULL_HANDLE, list = VK_NULL_HANDLE;
-        VkDeviceSize poseBytes = 0, scratchBytes = 0, listBytes = 0; ///< of the list: all
-        uint32_t poseStride = 0, scratchStride = 0, place = 0, way = 0;
-    };
+    /// If hasSoft().
     [[nodiscard]] StepPoses stepPoses() const;
     /// What listPoses() has listed.
     [[nodiscard]] const PoseList::Window& listedPoses(uint32_t window) const { return list_.window(window); }

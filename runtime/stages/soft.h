@@ -1,5 +1,5 @@
-// The stages between deform and the surfaces that move what is soft, in groups that play: vertices that jiggle
-// (docs/soft.md), and cloths (docs/cloth.md).
+// The stages between deform and the surfaces that move what is soft: vertices that jiggle (docs/soft.md), and cloths
+// (docs/cloth.md).
 #pragma once
 
 #include "runtime/stages/cage_stage.h"

@@ -100,6 +100,8 @@ void main() {
         precise Affine way = identity();
         if ((state(posedState()).y & kStateTravels) != 0u) way = scratchRows(locals + push.springScratch);
         now.move = stepMove(before, way, moves, k, jump == k + 1u);
+        now.wind = vec3(0.0);
+        if (moves != 0u) now.wind = worldVelocity(way, windRow(moves + kMoveWords * k));
         before = way;
         now.place = scratchRows(locals + kAffineElements * push.nodeCount);
         runStep(all, now, lane, lanes);

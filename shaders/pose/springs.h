@@ -55,6 +55,7 @@ uint colliderAt(uint reference) {
 struct SpringStep {
     Affine move;   // of the model's frame at the step before
     Affine place;  // where the instance stands
+    vec3 wind;     // in the model's frame
     bool settles;  // tails at rest in the pose
 };
 
@@ -79,6 +80,8 @@ vec4 swungRotation(uint element, uvec4 ids, Affine above, Transform own, SpringS
     SUPPLE_PRECISE vec3 last = through(move, vec3(spring(at)));
     SUPPLE_PRECISE vec3 before = through(move, vec3(spring(at + 1u)));
     SUPPLE_PRECISE vec3 pull = worldDirection(now.place, vec3(gravity)) * gravity.w;
+    SUPPLE_PRECISE vec3 carried = now.wind * (kSpringSeconds * (1.0f - ways.x)); // what drag takes, the air gives
+    pull = pull + carried;
     SUPPLE_PRECISE vec3 way = directionOr(swungTail(last, before, axis, tail.w, ways.x, pull) - head, axis);
     SUPPLE_PRECISE vec3 next = head + way * size;
     for (uint k = 0u; k < ids.w; ++k) {

@@ -92,8 +92,9 @@ void runSteps(ClothTables all, uint words) {
         precise Affine way = identity();
         if ((instanceEntry(entry) & kPosedTravels) != 0u) way = scratchRows(entry * push.scratchStride + push.way);
         posed = (first + k) * push.stepStride;
-        vec3 down = worldDirection(way, downRow(moves + kMoveWords * k));
-        ClothStep now = clothStep(stepMove(before, way, moves, k, false), moveBefore, down, settles, skips, jump == k + 1u, known);
+        ClothStep now = clothStep(stepMove(before, way, moves, k, false), moveBefore, settles, skips, jump == k + 1u, known);
+        now.down = worldDirection(way, downRow(moves + kMoveWords * k));
+        now.wind = worldVelocity(way, windRow(moves + kMoveWords * k));
         runClothStep(all, now);
         before = way;
         moveBefore = now.move;

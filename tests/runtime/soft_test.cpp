@@ -24,7 +24,7 @@ class Soft : public CrowdContexts {};
 class SoftOfTheCpu {
 public:
     explicit SoftOfTheCpu(const SoftGroup& of)
-        : group_(of.group()), table_(deformTableOf(group_)), clock_(group_.instances().capacity()),
+        : group_(of.group()), table_(deformTableOf(group_)), clock_(group_.instances().capacity(), true),
           places_(group_.instances().capacity(), glm::mat4(1.0f)), travels_(group_.instances().capacity(), false) {
         const skinning::PoseLayout& layout = group_.instances().poseLayout();
         for (uint32_t i = 0; i < group_.instances().capacity(); ++i) {
@@ -253,7 +253,7 @@ TEST_F(Soft, AreRefusedWhereTheyCannotBe) {
     EXPECT_EQ(created(desc), SUPPLE_OK);
     desc.flags |= SUPPLE_GROUP_UPDATE_RATES;
     EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT);
-    for (const SupplePoseSource source : {SUPPLE_POSES_SET, SUPPLE_POSES_PALETTE_BUFFER, SUPPLE_POSES_CAGE_BUFFER}) {
+    for (const SupplePoseSource source : {SUPPLE_POSES_PALETTE_BUFFER, SUPPLE_POSES_CAGE_BUFFER}) {
         desc.flags = kSoft;
         desc.poseSource = source;
         EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT) << source;

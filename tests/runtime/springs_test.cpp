@@ -109,7 +109,7 @@ TEST(SpringClock, StepsAreOnAGridOfTimes) {
 }
 
 TEST(SpringClock, SaysWhatIsDue) {
-    runtime::SpringClock clock(1);
+    runtime::SpringClock clock(1, false);
     uint64_t frame = 0;
     const auto at = [&](double step) { return clock.take(0, ++frame, step / 60.0 + 1e-9, {}, false); };
     EXPECT_TRUE(at(100).settles);
@@ -131,7 +131,7 @@ TEST(SpringClock, SaysWhatIsDue) {
 }
 
 TEST(SpringClock, PlacesGoStraightFromFrameToFrame) {
-    runtime::SpringClock clock(1);
+    runtime::SpringClock clock(1, false);
     const auto placed = [](double x) { return runtime::SpringPlace{glm::dmat3(1.0), glm::dvec3(x, 0.0, 0.0)}; };
     (void)clock.take(0, 1, 10.0 / 60.0, placed(0.0), false);
     const runtime::SpringClock::Due due = clock.take(0, 2, 14.0 / 60.0, placed(4.0), false);
@@ -164,7 +164,7 @@ TEST(SpringClock, PlacesGoStraightFromFrameToFrame) {
 }
 
 TEST(SpringClock, CallsTakeEffectAtTheirTime) {
-    runtime::SpringClock clock(1);
+    runtime::SpringClock clock(1, false);
     (void)clock.take(0, 1, 10.0 / 60.0, {}, false);
     EXPECT_FALSE(clock.change(0, 10.5 / 60.0)) << "no step was due before";
     EXPECT_TRUE(clock.change(0, 12.5 / 60.0));
