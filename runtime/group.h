@@ -79,7 +79,7 @@ public:
     [[nodiscard]] gpu::TaskOwner taskOwner() const;
     [[nodiscard]] uint64_t number() const { return number_; }
     /// Whether tasks of a frame may stand in others.
-    [[nodiscard]] bool keepsTasks() const { return stages_.keepTasks(); }
+    [[nodiscard]] bool keepsTasks() const { return stages_.tasks() != CageStageRow::Tasks::anew; }
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }

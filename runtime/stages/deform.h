@@ -18,6 +18,6 @@ struct DeformStageKernels final : CageKernels {
 [[nodiscard]] Status makeDeformPipelines(const PlannedStages& planned, const CageKernels& kernels);
 
 inline constexpr CageStageRow kDeformRow{SUPPLE_PASS_DEFORM,  false, wantsDeform, makeDeformKernels, makeDeform,
-                                         makeDeformPipelines, true,  true};
+                                         makeDeformPipelines, true,  CageStageRow::Tasks::stand};
 
 } // namespace supple::runtime

@@ -10,6 +10,6 @@ namespace supple::runtime {
 [[nodiscard]] Status makeGatherPipelines(const PlannedStages& planned, const CageKernels& kernels);
 
 inline constexpr CageStageRow kGatherRow{SUPPLE_PASS_DEFORM,  true, wantsGather, makeDeformKernels, makeGather,
-                                         makeGatherPipelines, true, true};
+                                         makeGatherPipelines, true, CageStageRow::Tasks::stand};
 
 } // namespace supple::runtime

@@ -62,7 +62,7 @@ public:
         uint64_t vertices = 0;
         frame.windows.forEach([&](uint32_t w) {
             const SoftPush push = pushOf(w);
-            if (push.instanceCount > 0) {
+            if (push.instanceCount > 0 || frame.dispatches.takesEmpty()) {
                 kernels_->record(frame.dispatches, sets_[w], instances_->skinning(), push);
                 vertices += uint64_t{push.count} * push.instanceCount;
             }

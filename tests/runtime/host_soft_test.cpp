@@ -94,6 +94,33 @@ TEST_F(HostSoft, GoesStraightFromPoseToPose) {
     EXPECT_LT(farthestApart(every, shownAfter(20.0)), 0.05);
 }
 
+TEST_F(HostSoft, HasTheSameWordsInBothMappingsAndSharedDispatches) {
+    const ValidationGuard guard;
+    CrowdContext shared(*testDevice(), SUPPLE_MAPPING_WIDE, 2, SUPPLE_CONTEXT_SHARED_DISPATCHES);
+    CrowdContext* const contexts[] = {&context(SUPPLE_MAPPING_NARROW), &context(SUPPLE_MAPPING_WIDE), &shared};
+    std::vector<std::vector<float>> first;
+    for (CrowdContext* const own : contexts) {
+        PosedGroup set(*own, posedGroup(own->asset(kCapedFile), 3, kSoftFlag), kHop);
+        std::vector<std::vector<float>> shown;
+        double time = 0.0;
+        for (uint32_t f = 0; f < 14; ++f) {
+            time += 0.009 * (f % 5); // none are due, or some
+            for (uint32_t i = 0; i < (f < 7 ? 2u : 3u); ++i) {
+                set.poseClip(i, set.within(time + 0.1 * i));
+            }
+            set.place(1, placedAt(time));
+            const float wind[3] = {static_cast<float>(f % 4), 0.0f, -2.0f};
+            EXPECT_EQ(suppleSetWind(own->handle(), set.crowd.group(), wind), SUPPLE_OK);
+            set.frame(time);
+            for (uint32_t i = 0; i < 3; ++i) {
+                shown.push_back(set.cage(i));
+            }
+        }
+        first = first.empty() ? shown : first;
+        EXPECT_EQ(shown, first);
+    }
+}
+
 /// Two groups whose instances are posed alike, of which one meets with something.
 struct TwoSoftGroups {
     TwoSoftGroups(CrowdContext& context, uint32_t capacity, uint32_t more = 0)

@@ -180,6 +180,29 @@ TEST(Cloths, KeepTheirLengths) {
     }
 }
 
+TEST(Cloths, StreamInTheWindAsOnARunner) {
+    const vec3 speed(0.5f, 0.0f, 4.0f);
+    Hung still(test::cape()), runs(test::cape()), stands(test::cape()), runsWithIt(test::cape());
+    for (Hung* const moving : {&runs, &runsWithIt}) {
+        const vec3 step = -speed / 60.0f;
+        moving->now.move = rowsOf(vec4(1, 0, 0, step.x), vec4(0, 1, 0, step.y), vec4(0, 0, 1, step.z));
+    }
+    stands.now.wind = -speed;
+    runsWithIt.now.wind = speed;
+    for (int n = 0; n < 240; ++n) {
+        for (Hung* const own : {&still, &runs, &stands, &runsWithIt}) {
+            own->step();
+        }
+    }
+    double streams = 0.0;
+    for (uint32_t i = 0; i < still.count(); ++i) {
+        EXPECT_LT(glm::distance(runs.place(i), stands.place(i)), 2e-3f) << i;
+        EXPECT_LT(glm::distance(runsWithIt.place(i), still.place(i)), 2e-3f) << i;
+        test::raise(streams, static_cast<double>(still.place(i).z - stands.place(i).z));
+    }
+    EXPECT_GT(streams, 0.1) << "it is blown back";
+}
+
 TEST(Cloths, TethersHoldWhereEdgesGive) {
     for (const float tether : {0.0f, 1.02f}) {
         cage::Character cape = test::cape();
