@@ -177,7 +177,7 @@ Status Group::createListing(const GroupShared& shared) {
     }
     // Who is moved beyond reach is posed in every frame: nobody knows its size.
     const bool chooses = view_ != nullptr && (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0 && stages_.keepReach();
-    if (outOfSight_.isAskedFor() || chooses) {
+    if (outOfSight_.isAskedFor() || chooses || fadesSteps()) {
         boxes_ = InstanceBoxes(asset_->reach(), boundsMargin(), capacity);
     }
     return follows() ? success() : instances_->makeBuffers(windowed);
@@ -211,6 +211,9 @@ Status Group::createRest(const GroupShared& shared) {
     status = status ? surfaceBuffers_.create(*shared.device) : status;
     status = status && boundsReadback_ != nullptr ? boundsReadback_->create() : status;
     status = status && !follows() ? instances_->createSets(listing_) : status;
+    if (status && fadesSteps()) {
+        poses().playback()->takeStepSizes();
+    }
     status = status ? stages_.createSets(instances_->cages(), listing_) : status;
     status = status ? createVisibility() : status;
     for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) {
@@ -566,6 +569,11 @@ bool Group::findUnseen() {
     return drawnElsewhere() ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), boxes_.boxes());
 }
 
+bool Group::fadesSteps() const {
+    const bool plays = !follows() && desc_.poseSource == SUPPLE_POSES_PLAYBACK;
+    return view_ != nullptr && plays && instances_->room().hasSteps() && (desc_.flags & SUPPLE_GROUP_POSE_UNSEEN) == 0;
+}
+
 bool Group::findList(uint64_t frame) {
     const bool before = listsSeen_, empty = windows().visible == 0;
     if (!empty || handsOver_) {
@@ -586,12 +594,15 @@ PassCost Group::recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame) {
     playback->takeStep();
     const shared::LodCamera camera = boxes_.areAskedFor() ? view_->cullView().camera : shared::LodCamera{};
     const bool unknown = drawnElsewhere(); // in views that may look from nearer by
-    const bool sizes = boxes_.areAskedFor() && playback->takesUpdateRates();
+    const bool rates = playback->takesUpdateRates(), steps = playback->takesStepSizes();
+    const bool sizes = boxes_.areAskedFor() && (rates || steps);
     for (uint32_t slot = 0; sizes && slot < slots().end(); ++slot) {
-        if (listing_.worksOn(slots(), slot) && playback->asksForSize(slot)) {
-            playback->setSize(slot, unknown ? std::numeric_limits<float>::infinity()
-                                            : pixelsPerUnit(camera, boxes_.boxes(), slot));
+        if (!listing_.worksOn(slots(), slot) || !(steps || playback->asksForSize(slot))) {
+            continue;
         }
+        const float size =
+            unknown ? std::numeric_limits<float>::infinity() : pixelsPerUnit(camera, boxes_.boxes(), slot);
+        steps ? playback->setStepSize(slot, size) : playback->setSize(slot, size);
     }
     playback->listPoses(frame, windows(), slots().end(),
                         [&](uint32_t slot) { return listing_.worksOn(slots(), slot); });

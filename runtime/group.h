@@ -218,6 +218,8 @@ private:
     [[nodiscard]] gpu::TaskNeeds countTasks() const;
     /// Whether other groups draw its instances too.
     [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
+    /// What steps do to small instances is not seen: they run none.
+    [[nodiscard]] bool fadesSteps() const;
     /// True if others than before are out of sight.
     bool findUnseen();
     /// What the frame has of the coefficients that both groups read.

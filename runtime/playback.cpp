@@ -28,6 +28,17 @@ float largestScale(const glm::mat3& linear) {
     return std::sqrt(most);
 }
 
+/// The length of the box that holds the cage at rest.
+float extentOf(const cage::Cage& cage) {
+    glm::vec3 low(cage.positions.front()), high(low);
+    for (const glm::vec3& p : cage.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::vec3 size = high - low;
+    return std::max({size.x, size.y, size.z});
+}
+
 /// A node's place in the table of another version of the asset, or kNone.
 uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::ClipTable& table) {
     const uint32_t moved = match.nodes[node];
@@ -64,6 +75,7 @@ Status Playback::create(const Desc& desc) {
         rates_ = UpdateRates(desc.capacity);
     }
     if (desc.room.hasSteps()) {
+        extent_ = extentOf(desc.asset->character.cage);
         springs_ = SpringClock(desc.capacity, desc.room.cloths);
     }
     if (desc.room.springs) {
@@ -236,6 +248,7 @@ void Playback::reset(uint32_t slot) {
     bounds_.setBindPose(slot);
     rates_.reset(slot);
     springs_.settle(slot);
+    detail_.forget(slot);
     if (takesModifiers()) {
         bounds_.setTurned(slot, {}, false, 0.0);
     }
@@ -491,6 +504,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         rates_.takeOver(other.rates_, count);
         steps_ = other.steps_;
         springs_.takeOver(other.springs_, count);
+        detail_.takeOver(other.detail_, count);
         springState_.takeOver(other.springState_, count);
     }
     for (uint32_t slot = 0; slot < count; ++slot) {
@@ -530,6 +544,11 @@ void Playback::setSize(uint32_t slot, float pixelsPerUnit) {
     }
 }
 
+void Playback::setStepSize(uint32_t slot, float pixelsPerUnit) {
+    const float scale = largestScale(glm::mat3(transforms_[slot]));
+    detail_.setSize(slot, pixelsPerUnit * scale * extent_, time_);
+}
+
 PoseSpan Playback::spanOf(uint32_t slot) {
     const uint32_t interval = rates_.interval(slot);
     if (interval <= 1 || states_.state(slot).modifierCount() > 0) {
@@ -563,9 +582,13 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
         springs_.settle(slot);
         return;
     }
+    const float fade = detail_.fade(slot);
+    if (fade == 0.0f) {
+        return;
+    }
     const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
     const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
-    list_.addSteps(slotInWindow, due, hasCloths_);
+    list_.addSteps(slotInWindow, due, hasCloths_, fade);
     for (uint32_t k = 0; k < due.count; ++k) {
         const std::span<const uint32_t> played = due.before[k] ? states_.before(slot) : states_.words(slot);
         const bool travels = (played[1] & kStateTravels) != 0;

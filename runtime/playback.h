@@ -15,6 +15,7 @@
 #include "runtime/played_states.h"
 #include "runtime/pose_list.h"
 #include "runtime/spring_clock.h"
+#include "runtime/step_detail.h"
 #include "runtime/update_rates.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
@@ -148,7 +149,14 @@ public:
     [[nodiscard]] bool asksForSize(uint32_t slot) const { return rates_.asked(slot) == 0; }
     /// `pixelsPerUnit`: at most, where the instance is.
     void setSize(uint32_t slot, float pixelsPerUnit);
-    void forgetSizes() { rates_.forgetChoices(); }
+    void forgetSizes() {
+        rates_.forgetChoices();
+        detail_.forgetAll();
+    }
+    /// Steps are run where instances are large enough on the screen: in each frame, setStepSize() says so. Once.
+    void takeStepSizes() { detail_ = StepDetail(capacity_); }
+    [[nodiscard]] bool takesStepSizes() const { return detail_.isTaken(); }
+    void setStepSize(uint32_t slot, float pixelsPerUnit);
     /// Lists what is posed in a frame, of the instances that `worksOn` holds for.
     template <class WorksOn>
     void listPoses(uint64_t frame, const InstanceWindows& windows, uint32_t end, WorksOn&& worksOn) {
@@ -260,6 +268,8 @@ private:
     PoseList list_;
 
     SpringClock springs_;
+    StepDetail detail_;
+    float extent_ = 0.0f; ///< of the character as it rests
     InstanceState springState_; ///< created if hasSprings()
     static constexpr double kNever = std::numeric_limits<double>::infinity();
     double firstStep_ = kNever; ///< the earliest time of a step in the list

@@ -62,8 +62,8 @@ public:
         parts_.push_back(std::bit_cast<uint32_t>(part));
     }
     /// Behind addPose() of the instance, with what is shown: its steps. Their flags are 0. `askForDown`: steps need to
-    /// know where down is.
-    void addSteps(uint32_t slot, const SpringClock::Due& due, bool askForDown);
+    /// know where down is; `fade`: how much is shown of what they do.
+    void addSteps(uint32_t slot, const SpringClock::Due& due, bool askForDown, float fade = 1.0f);
     /// Of the step `k` of the instance whose steps were added last: kPosedBefore, kPosedTravels.
     void flagStep(uint32_t k, uint32_t flags) { steps_[swinging_.back()[1] + k] |= flags; }
     void endWindow(uint32_t window);
@@ -90,11 +90,6 @@ public:
     [[nodiscard]] bool recordedIn(uint64_t frame) const { return isTaken() && frame_ == frame; }
 
 private:
-    void addSwinging(uint32_t slot, uint32_t flags, float part, bool moves) {
-        swinging_.push_back({slot, static_cast<uint32_t>(steps_.size()), flags, std::bit_cast<uint32_t>(part),
-                             moves ? static_cast<uint32_t>(moves_.size()) + 1 : 0,
-                             static_cast<uint32_t>(times_.size() / 2) - 1});
-    }
     void addMove(const SpringClock::Due& due, uint32_t step);
     void endSwinging(Window& own);
     /// The word where they begin. Leaves none.

@@ -96,7 +96,7 @@ void SpringTwin::step(std::span<const shared::Transform> locals, const Step& now
 
 void SpringTwin::show(std::span<glm::vec4> state, float part, std::span<shared::Transform> locals) {
     twin::SpringCode code{table_->words.data(), push_, locals.data(), globals_.data(), colliders_.data(), state.data()};
-    code.forChains([&](shared::uint element) { code.showSpringNode(element, part); });
+    code.forChains([&](shared::uint element) { code.showSpringNode(element, part, 1.0f); });
 }
 
 std::vector<SpringTwin::Bone> SpringTwin::bones() {

@@ -112,9 +112,9 @@ void main() {
         keepSpring(2u, before.z);
     }
     locals = instanceWord(words + 5u) * push.scratchStride;
-    float part = uintBitsToFloat(instanceWord(words + 3u));
+    float part = uintBitsToFloat(instanceWord(words + 3u)), fade = uintBitsToFloat(instanceWord(words + 6u));
     for (uint chain = lane; chain < all.chainCount; chain += lanes) {
         uvec4 nodes = table(all.chains + chain);
-        for (uint i = nodes.x; i < nodes.y; i += kSpringNodeElements) showSpringNode(i, part);
+        for (uint i = nodes.x; i < nodes.y; i += kSpringNodeElements) showSpringNode(i, part, fade);
     }
 }

@@ -128,13 +128,13 @@ void stepChain(uvec4 chain, SpringStep now) {
     }
 }
 
-// What is shown of a node of a chain, `part` of the way from the last step but one to the last.
-void showSpringNode(uint element, float part) {
+// What is shown of a node of a chain, `part` of the way from the last step but one to the last; of that, `fade`.
+void showSpringNode(uint element, float part, float fade) {
     uvec4 ids = table(element);
     for (bool swings = ids.y != kNoNode; swings; swings = false) {
         uint at = kSpringJoints + kSpringJointElements * ids.y;
         vec3 now = vec3(spring(at + 2u)), before = vec3(spring(at + 3u));
-        SUPPLE_PRECISE vec3 offset = before + (now - before) * part;
+        SUPPLE_PRECISE vec3 offset = (before + (now - before) * part) * fade;
         SUPPLE_PRECISE Transform own = nodeLocal(ids.x);
         SUPPLE_PRECISE vec3 rest = direction(directionThrough(composed(own), vec3(tableFloats(element + 1u))));
         SUPPLE_PRECISE vec3 way = directionOr(rest + offset, rest);

@@ -116,10 +116,10 @@ void main() {
     states = slot * push.stateStride;
     runSteps(all, words);
     precise Affine place = scratchRows(instanceWord(words + 5u) * push.scratchStride + push.place);
-    float part = uintBitsToFloat(instanceWord(words + 3u));
+    float part = uintBitsToFloat(instanceWord(words + 3u)), fade = uintBitsToFloat(instanceWord(words + 6u));
     for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) {
         if (i < all.hangingCount) continue;
-        precise vec3 moved = shownClothOffset(all, i, part, place);
+        precise vec3 moved = shownClothOffset(all, i, part, place) * fade;
         uint cage = slot * push.cageStride + clothTable(all.vertices + kClothVertexElements * i).x;
         vec4 shown = deformedCage.at[cage];
         precise vec3 p = vec3(shown) + moved;

@@ -65,7 +65,8 @@ void main() {
         jiggling = jiggledStep(jiggling, goal, now, spring, uintBitsToFloat(own.z));
     }
     precise Affine place = scratchRows(instanceWord(words + 5u) * push.scratchStride + push.place);
-    precise vec3 moved = shownOffset(jiggling, uintBitsToFloat(instanceWord(words + 3u)), uintBitsToFloat(own.y), place);
+    precise float weight = uintBitsToFloat(own.y) * uintBitsToFloat(instanceWord(words + 6u));
+    precise vec3 moved = shownOffset(jiggling, uintBitsToFloat(instanceWord(words + 3u)), weight, place);
     if (!within) return;
     if (steps != 0u) {
         jiggles.at[state] = vec4(jiggling.offset, jiggling.before.x);

@@ -1021,9 +1021,12 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_WINDOWS = 128,
     /** With ATTRIBUTES: also write a tangent per surface vertex, for normal maps. See SuppleVertexStreams.tangents. */
     SUPPLE_GROUP_TANGENTS = 256,
-    /** Groups of a view with SUPPLE_VIEW_CULL: pose and deform every visible instance. Without this flag, instances
-     * that surely are out of the camera's sight are left out before they are posed. Use it if you read poses or
-     * deformed cages of instances that the camera does not see. */
+    /** Groups of a view: what the camera sees does not matter for poses. In a view with SUPPLE_VIEW_CULL all visible
+     * instances are posed and deformed. Without this flag, those that surely are out of sight are left out before they
+     * are posed. Use it if you read poses or deformed cages of instances that the camera does not see. In any view,
+     * steps of SUPPLE_GROUP_SPRINGS and SUPPLE_GROUP_SOFT are run however small an instance is on the screen. Without
+     * this flag, what plays fades out below 24 pixels, and runs none (docs/soft.md). Use it if replays with other
+     * cameras must have the same bits. */
     SUPPLE_GROUP_POSE_UNSEEN = 512,
     /** With SUPPLE_POSES_SET or SUPPLE_POSES_PLAYBACK: instances may have modifiers (suppleSetModifiers). These cost 2
      * KiB of memory per instance, on the device if it plays. */
