@@ -8,14 +8,7 @@
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/vectors.h"
 #include "shaders/soft/jiggle.h"
-
-layout(constant_id = kMorphsConstant) const bool kMorphs = false;
-layout(constant_id = kSkinningConstant) const uint kSkinning = kLinearSkinning;
-#ifdef MUSH
-const bool kMush = true;
-#else
-const bool kMush = false;
-#endif
+#include "shaders/deform/kinds.glsl"
 
 BUFFER(, DeformedCage, kDeformedCageBinding, std430, vec4, deformedCage)
 BUFFER(, Jiggles, kSoftStateBinding, std430, vec4, jiggles)
