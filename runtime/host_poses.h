@@ -94,7 +94,7 @@ public:
 
     struct Frame {
         uint64_t number = 0;
-        double time = 0.0;       ///< of the host
+        double time = 0.0;      ///< of the host
         bool leavesOut = false; ///< all instances: none runs a step
     };
     /// Writes the instances, instanceBytes() each, in the layout of shaders/shared/deform.h. Those that show run the

@@ -151,7 +151,8 @@ void HostSoft::end(uint32_t slot, const skinning::InstancePose& now) {
 }
 
 void HostSoft::endWindow() {
-    const VkDeviceSize slot = VkDeviceSize{window_} * windowSize_, inStaging = frame_ % framesInFlight_ * capacity_ + slot;
+    const VkDeviceSize slot = VkDeviceSize{window_} * windowSize_,
+                       inStaging = frame_ % framesInFlight_ * capacity_ + slot;
     if (steps_ > 0) {
         const VkDeviceSize bytes = steps_ * (poseBytes() / shared::kMostSpringSteps);
         poseCopies_.push_back({inStaging * poseBytes(), slot * poseBytes(), bytes});

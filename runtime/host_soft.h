@@ -58,7 +58,9 @@ private:
     void copy(const Poses& from, uint32_t slot, Poses& to) const;
     void mix(uint32_t slot, float way, const skinning::InstancePose& now); ///< into mixed_
     void endWindow();
-    [[nodiscard]] VkDeviceSize poseBytes() const { return VkDeviceSize{shared::kMostSpringSteps} * layout_.stride * 16; }
+    [[nodiscard]] VkDeviceSize poseBytes() const {
+        return VkDeviceSize{shared::kMostSpringSteps} * layout_.stride * 16;
+    }
 
     const gpu::Device* device_ = nullptr;
     skinning::PoseLayout layout_; ///< of steps
@@ -69,7 +71,7 @@ private:
 
     PoseList list_;
     uint64_t frame_ = 0;
-    uint32_t window_ = 0; ///< that is being listed
+    uint32_t window_ = 0;            ///< that is being listed
     uint32_t steps_ = 0, shown_ = 0; ///< in it so far
     std::vector<VkBufferCopy> poseCopies_, placeCopies_;
 

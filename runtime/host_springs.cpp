@@ -142,8 +142,7 @@ void HostSprings::showStep(uint32_t slot, std::span<skinning::Affine> palette, s
     }
 }
 
-void HostSprings::show(uint32_t slot, float part, std::span<skinning::Affine> palette,
-                       std::span<glm::vec4> rotations) {
+void HostSprings::show(uint32_t slot, float part, std::span<skinning::Affine> palette, std::span<glm::vec4> rotations) {
     copyTo(of(posed_, slot), of(before_, slot));
     copyTo(of(posed_, slot), std::span(shown_));
     turn(stateOf(states_, slot), part, palette, rotations);

@@ -56,7 +56,7 @@ std::span<const uint32_t> HostSteps::cancelFrame(uint64_t frame) {
     for (size_t i = 0; i < undo_.size(); ++i) {
         slots_[taken_[i]].time = undo_[i];
     }
-    undo_.clear();
+    frame_ = kNoFrame; // it may be recorded again
     return taken_;
 }
 

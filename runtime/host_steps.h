@@ -52,7 +52,8 @@ public:
 private:
     SpringClock clock_;
     double time_ = 0.0, timeBefore_ = 0.0; ///< of the last frame, and of that before
-    uint64_t frame_ = 0;
+    static constexpr uint64_t kNoFrame = ~uint64_t{0};
+    uint64_t frame_ = kNoFrame;
     struct Slot {
         bool isPosed = false;
         double time = 0.0; ///< of the last frame that it was shown in

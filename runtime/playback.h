@@ -269,7 +269,7 @@ private:
 
     SpringClock springs_;
     StepDetail detail_;
-    float extent_ = 0.0f; ///< of the character as it rests
+    float extent_ = 0.0f;       ///< of the character as it rests
     InstanceState springState_; ///< created if hasSprings()
     static constexpr double kNever = std::numeric_limits<double>::infinity();
     double firstStep_ = kNever; ///< the earliest time of a step in the list

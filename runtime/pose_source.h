@@ -31,9 +31,9 @@ public:
     /// Where the coordinates of the device begin, for the next recording and for jointTransform(). `end`: slots below
     /// it may be in use.
     virtual void setOrigin(const glm::dvec3& /*origin*/, uint32_t /*end*/) {}
-    virtual void teleport(uint32_t /*slot*/) {} ///< it has jumped to where the next recording places it
+    virtual void teleport(uint32_t /*slot*/) {}             ///< it has jumped to where the next recording places it
     virtual void setWind(const glm::dvec3& /*velocity*/) {} ///< about all instances, from the group's time on
-    virtual void settleSteps() {}               ///< all that runs steps begins anew
+    virtual void settleSteps() {}                           ///< all that runs steps begins anew
     virtual void setMorphWeights(uint32_t /*slot*/, const float* /*weights*/) {} ///< null: the pose's own again
     /// Where a joint is, as the next recording poses and places the instance.
     [[nodiscard]] virtual glm::mat4 jointTransform(uint32_t /*slot*/, uint32_t /*joint*/) { return glm::mat4(1.0f); }

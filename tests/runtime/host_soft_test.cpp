@@ -69,8 +69,8 @@ TEST_F(HostSoft, MovesAsThatOfInstancesThatPlay) {
         EXPECT_GT(moved, 0.02);
     }
     // What hangs on joints that swing jiggles by how they swing.
-    const auto [off, moved] = movedBesidePlayed(own, swingingAndJigglingWren(own), By::clip, SUPPLE_SKINNING_LINEAR,
-                                                SUPPLE_GROUP_SPRINGS, 2);
+    const auto [off, moved] =
+        movedBesidePlayed(own, swingingAndJigglingWren(own), By::clip, SUPPLE_SKINNING_LINEAR, SUPPLE_GROUP_SPRINGS, 2);
     EXPECT_LT(off, 1e-3);
     EXPECT_GT(moved, 0.02);
 }

@@ -179,9 +179,8 @@ TEST(SpringClock, CallsTakeEffectAtTheirTime) {
 
 TEST(SpringClock, WindBlowsFromItsTimeOn) {
     runtime::SpringClock clock(1, true);
-    const runtime::SpringPlace turned{glm::dmat3(glm::rotate(glm::dmat4(1.0), 1.5707963267948966, glm::dvec3(0, 1, 0))) *
-                                          2.0,
-                                      glm::dvec3(5.0)};
+    const runtime::SpringPlace turned{
+        glm::dmat3(glm::rotate(glm::dmat4(1.0), 1.5707963267948966, glm::dvec3(0, 1, 0))) * 2.0, glm::dvec3(5.0)};
     (void)clock.take(0, 1, 10.0 / 60.0, turned, false);
     clock.endFrame(1);
     clock.setWind({8.0, 2.0, 0.0}, 11.5 / 60.0);
@@ -198,7 +197,8 @@ TEST(SpringClock, WindBlowsFromItsTimeOn) {
     clock.endFrame(3);
     clock.cancelFrame(3);
     const runtime::SpringClock::Due again = clock.take(0, 4, 16.0 / 60.0, turned, false);
-    EXPECT_TRUE(again.wind[0] == due.wind[1] && again.wind[1] == glm::vec3(0.0f)) << "as in the frame that was cancelled";
+    EXPECT_TRUE(again.wind[0] == due.wind[1] && again.wind[1] == glm::vec3(0.0f))
+        << "as in the frame that was cancelled";
     clock.endFrame(4);
     EXPECT_FALSE(clock.take(0, 5, 18.0 / 60.0, turned, false).blows);
     EXPECT_EQ(runtime::velocityWithin({glm::dmat3(0.0), {}}, {1.0, 0.0, 0.0}), glm::vec3(0.0f)) << "flat";

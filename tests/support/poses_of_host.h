@@ -43,9 +43,9 @@ public:
         EXPECT_EQ(suppleSetPose(handle(), instances[i], &desc), SUPPLE_OK);
     }
     void poseMatrices(uint32_t i, const std::vector<float>& matrices) const {
-        EXPECT_EQ(suppleSetMatrixPose(handle(), instances[i], matrices.data(),
-                                      static_cast<uint32_t>(matrices.size() / 16)),
-                  SUPPLE_OK);
+        EXPECT_EQ(
+            suppleSetMatrixPose(handle(), instances[i], matrices.data(), static_cast<uint32_t>(matrices.size() / 16)),
+            SUPPLE_OK);
     }
     void frame(double time) {
         crowd.context().setTime(time);
