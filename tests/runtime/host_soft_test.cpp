@@ -22,7 +22,7 @@ class HostSoft : public CrowdContexts {};
 constexpr uint32_t kSoftFlag = SUPPLE_GROUP_SOFT;
 constexpr uint32_t kHop = 1; ///< the clip
 
-/// What a second and a half of the clip shows of two groups of which something is soft, one of which plays, and of one
+/// What two thirds of a second of the clip show of two groups of which something is soft, one of which plays, and of one
 /// that is stiff: how far the first two are apart, and by how much they move.
 std::array<double, 2> movedBesidePlayed(CrowdContext& own, SuppleAsset asset, By by, SuppleSkinning skinning,
                                         uint32_t flags, uint32_t clip) {
@@ -33,7 +33,7 @@ std::array<double, 2> movedBesidePlayed(CrowdContext& own, SuppleAsset asset, By
     played.play(0, clip, 0.0);
     still.play(0, clip, 0.0);
     double off = 0.0, moved = 0.0;
-    for (uint32_t n = 0; n < 90; ++n) {
+    for (uint32_t n = 0; n < 40; ++n) {
         const double time = n / 60.0;
         for (PosedGroup* const group : {&played, &still, &set}) {
             group->place(0, placedAt(time));
@@ -52,16 +52,13 @@ std::array<double, 2> movedBesidePlayed(CrowdContext& own, SuppleAsset asset, By
 
 TEST_F(HostSoft, MovesAsThatOfInstancesThatPlay) {
     const ValidationGuard guard;
-    for (const SuppleMapping mapping : kMappings) {
-        CrowdContext& own = context(mapping);
-        const SuppleAsset caped = own.asset(kCapedFile);
-        for (const By by : {By::clip, By::layers, By::clipWithModifiers, By::matrices}) {
-            const auto [off, moved] = movedBesidePlayed(own, caped, by, SUPPLE_SKINNING_LINEAR, 0, kHop);
-            EXPECT_LT(off, 2e-3) << static_cast<int>(by) << ": steps are at the frames' own times";
-            EXPECT_GT(moved, 0.05);
-        }
-    }
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset caped = own.asset(kCapedFile);
+    for (const By by : {By::clip, By::layers, By::clipWithModifiers, By::matrices}) {
+        const auto [off, moved] = movedBesidePlayed(own, caped, by, SUPPLE_SKINNING_LINEAR, 0, kHop);
+        EXPECT_LT(off, 2e-3) << static_cast<int>(by) << ": steps are at the frames' own times";
+        EXPECT_GT(moved, 0.05);
+    }
     for (const SuppleSkinning skinning :
          {SUPPLE_SKINNING_DUAL_QUATERNION, SUPPLE_SKINNING_CENTERS_OF_ROTATION, SUPPLE_SKINNING_DELTA_MUSH}) {
         const auto [off, moved] = movedBesidePlayed(own, own.asset(kBellyFile), By::clip, skinning, 0, 0);
@@ -80,7 +77,7 @@ TEST_F(HostSoft, GoesStraightFromPoseToPose) {
     const SuppleAsset belly = own.asset(kBellyFile);
     const auto shownAfter = [&](double rate) {
         PosedGroup set(own, posedGroup(belly, 1, kSoftFlag), 0);
-        for (uint32_t n = 0; n <= static_cast<uint32_t>(1.5 * rate); ++n) {
+        for (uint32_t n = 0; n <= static_cast<uint32_t>(0.5 * rate); ++n) {
             set.poseClip(0, set.within(n / rate));
             set.place(0, placedAt(n / rate));
             set.frame(n / rate);
@@ -189,10 +186,10 @@ TEST_F(HostSoft, TeleportsKeepHowItMoves) {
             }
             return farthestApart(here, both.plain.cage(i));
         };
-        EXPECT_LT(off(0), 1e-3) << "floats a hundred metres from the origin";
+        EXPECT_LT(off(0), step < 20 ? 1e-6 : 0.03) << step << ": its shape stays for a step";
         raise(untold, off(1));
     }
-    EXPECT_GT(untold, 0.05);
+    EXPECT_GT(untold, 0.1);
 }
 
 TEST_F(HostSoft, RestsInTheBindPoseAndComesBackFromIt) {
@@ -246,13 +243,13 @@ TEST_F(HostSoft, TakesWindowsOfInstances) {
     for (const SuppleMapping mapping : kMappings) {
         LimitedDevice limited(mapping, [](WrappedVulkan& says) { says.maxStorageBufferRange = 1u << 18; });
         ASSERT_NE(limited.context(), nullptr);
-        constexpr uint32_t kCount = 40;
+        constexpr uint32_t kCount = 24;
         CrowdContext &small = *limited.context(), &large = context(mapping);
         PosedGroup cut(small, posedGroup(small.asset(kCapedFile), kCount, kSoftFlag | SUPPLE_GROUP_WINDOWS), kHop);
         PosedGroup whole(large, posedGroup(large.asset(kCapedFile), kCount, kSoftFlag), kHop);
         ASSERT_TRUE(cut.crowd.valid() && whole.crowd.valid());
         EXPECT_GT(cut.group().windows().count(), 1u);
-        for (uint32_t f = 0; f < 6; ++f) {
+        for (uint32_t f = 0; f < 4; ++f) {
             for (PosedGroup* const group : {&cut, &whole}) {
                 for (uint32_t i = 0; i < kCount; ++i) {
                     if (i % 3 != 1) { // some stay in the bind pose
@@ -261,7 +258,7 @@ TEST_F(HostSoft, TakesWindowsOfInstances) {
                 }
                 group->frame(f / 40.0);
             }
-            for (uint32_t i = 0; i < kCount; i += f == 5 ? 1 : 13) {
+            for (uint32_t i = 0; i < kCount; i += f == 3 ? 1 : 13) {
                 EXPECT_EQ(cut.cage(i), whole.cage(i)) << f << ", " << i;
             }
         }
