@@ -235,8 +235,8 @@ Status Asset::makeJiggles(const gpu::Device& device) {
     }
     skinning::JiggleTable table = skinning::buildJiggleTable(character);
     if (table.mostWork > shared::kMostStepWork) {
-        return Error{ErrorCode::limit, "a vertex that jiggles has " + std::to_string(table.mostWork) +
-                                           " morph targets and pairs of joints, of at most " +
+        return Error{ErrorCode::limit, "a vertex that jiggles takes " + std::to_string(table.mostWork) +
+                                           " rounds of morph targets and joints in a step, of at most " +
                                            std::to_string(shared::kMostStepWork)};
     }
     const uint32_t elements = shared::kJiggleVertices + shared::kJiggleElements * table.vertexCount;

@@ -149,8 +149,8 @@ Status Group::createListing(const GroupShared& shared) {
     const uint32_t lists = view_ != nullptr ? Culling::lists(drawnParts_.count(), surfaces_.ladder().count) : 2;
     // Texels of an instance, in the lists of instances and in that of poses.
     const StateRoom room = follows() ? StateRoom{} : instances_->room();
-    const bool plays = !follows() && instances_->source() == SUPPLE_POSES_PLAYBACK;
-    const uint32_t texels = std::max(lists, plays ? PoseList::wordsOfInstance(room) : 0);
+    const bool listsPoses = !follows() && (instances_->source() == SUPPLE_POSES_PLAYBACK || room.soft);
+    const uint32_t texels = std::max(lists, listsPoses ? PoseList::wordsOfInstance(room) : 0);
     if (!device.mapping.wide && uint64_t{texels} * capacity > device.limits.maxTexelBufferElements) {
         return Error{ErrorCode::limit, std::to_string(capacity) +
                                            " instances exceed the device's texel-buffer elements: the largest "
@@ -179,7 +179,7 @@ Status Group::createListing(const GroupShared& shared) {
     }
     // Who is moved beyond reach is posed in every frame: nobody knows its size.
     const bool chooses = view_ != nullptr && (desc_.flags & SUPPLE_GROUP_UPDATE_RATES) != 0 && stages_.keepReach();
-    if (outOfSight_.isAskedFor() || chooses) {
+    if (outOfSight_.isAskedFor() || chooses || fadesSteps()) {
         boxes_ = InstanceBoxes(asset_->reach(), boundsMargin(), capacity);
     }
     return follows() ? success() : instances_->makeBuffers(windowed);
@@ -213,6 +213,9 @@ Status Group::createRest(const GroupShared& shared) {
     status = status ? surfaceBuffers_.create(*shared.device) : status;
     status = status && boundsReadback_ != nullptr ? boundsReadback_->create() : status;
     status = status && !follows() ? instances_->createSets(listing_) : status;
+    if (status && fadesSteps()) {
+        poses().playback()->takeStepSizes();
+    }
     status = status ? stages_.createSets(instances_->cages(), listing_) : status;
     status = status ? createVisibility() : status;
     for (uint32_t surface = 0; surface < surfaces_.size(); ++surface) {
@@ -508,8 +511,8 @@ PassCost Group::recordUpload(VkCommandBuffer commandBuffer, const FrameInfo& fra
     leftOutAll_ = listing_.leavesOutAll();
     points_.noteAsked(frame.number);
     bool changed = listing_.changed(slots());
-    PassCost cost =
-        follows() ? PassCost{} : instances_->recordPoses(commandBuffer, frame.number, frame.time, frame.origin);
+    const HostPoses::Frame own{frame.number, frame.time, leftOutAll_};
+    PassCost cost = follows() ? PassCost{} : instances_->recordPoses(commandBuffer, own, frame.origin);
     const glm::vec3 step(frame.origin - origin_);
     origin_ = frame.origin;
     if (boxes_.areAskedFor() && !drawnElsewhere()) { // else nobody looks at them
@@ -568,6 +571,11 @@ bool Group::findUnseen() {
     return drawnElsewhere() ? outOfSight_.clear() : outOfSight_.find(view_->cullView(), slots(), boxes_);
 }
 
+bool Group::fadesSteps() const {
+    const bool plays = !follows() && desc_.poseSource == SUPPLE_POSES_PLAYBACK;
+    return view_ != nullptr && plays && instances_->room().hasSteps() && (desc_.flags & SUPPLE_GROUP_POSE_UNSEEN) == 0;
+}
+
 bool Group::findList(uint64_t frame) {
     const bool before = listsSeen_, empty = windows().visible == 0;
     if (!empty || handsOver_) {
@@ -588,12 +596,15 @@ PassCost Group::recordPoseList(VkCommandBuffer commandBuffer, uint64_t frame) {
     playback->takeStep();
     const shared::LodCamera camera = boxes_.areAskedFor() ? view_->cullView().camera : shared::LodCamera{};
     const bool unknown = drawnElsewhere(); // in views that may look from nearer by
-    const bool sizes = boxes_.areAskedFor() && playback->takesUpdateRates();
+    const bool rates = playback->takesUpdateRates(), steps = playback->takesStepSizes();
+    const bool sizes = boxes_.areAskedFor() && (rates || steps);
     for (uint32_t slot = 0; sizes && slot < slots().end(); ++slot) {
-        if (listing_.worksOn(slots(), slot) && playback->asksForSize(slot)) {
-            playback->setSize(slot, unknown ? std::numeric_limits<float>::infinity()
-                                            : pixelsPerUnit(camera, boxes_.boxes(), slot));
+        if (!listing_.worksOn(slots(), slot) || !(steps || playback->asksForSize(slot))) {
+            continue;
         }
+        const float size =
+            unknown ? std::numeric_limits<float>::infinity() : pixelsPerUnit(camera, boxes_.boxes(), slot);
+        steps ? playback->setStepSize(slot, size) : playback->setSize(slot, size);
     }
     playback->listPoses(frame, windows(), slots().end(),
                         [&](uint32_t slot) { return listing_.worksOn(slots(), slot); });

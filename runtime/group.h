@@ -79,7 +79,7 @@ public:
     [[nodiscard]] gpu::TaskOwner taskOwner() const;
     [[nodiscard]] uint64_t number() const { return number_; }
     /// Whether tasks of a frame may stand in others.
-    [[nodiscard]] bool keepsTasks() const { return stages_.keepTasks(); }
+    [[nodiscard]] bool keepsTasks() const { return stages_.tasks() != CageStageRow::Tasks::anew; }
 
     [[nodiscard]] InstanceSet& instances() { return *instances_; }
     [[nodiscard]] const InstanceSet& instances() const { return *instances_; }
@@ -220,6 +220,8 @@ private:
     [[nodiscard]] gpu::TaskNeeds countTasks() const;
     /// Whether other groups draw its instances too.
     [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
+    /// What steps do to small instances is not seen: they run none.
+    [[nodiscard]] bool fadesSteps() const;
     /// True if others than before are out of sight.
     bool findUnseen();
     /// What the frame has of the coefficients that both groups read.

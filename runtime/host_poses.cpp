@@ -18,8 +18,8 @@ skinning::PoseLayout poseLayoutOf(const Asset& asset, skinning::SkinningMode mod
     return layout;
 }
 
-HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers,
-                     bool springs)
+HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout,
+                     const StateRoom& room)
     : asset_(&asset), layout_(layout), skinned_(asset.skinning(layout.mode)) {
     const cage::Character& character = asset.character;
     targetCount_ = character.morphs.targets.size();
@@ -38,18 +38,24 @@ HostPoses::HostPoses(const Asset& asset, uint32_t instanceCount, const skinning:
     if (asset.drivers != nullptr) {
         drivers_ = HostDrivers(character, asset.drivers, instanceCount);
     }
-    if (modifiers || springs) {
+    if (room.modifiers || room.springs) {
         const skinning::ClipTable& table = *asset.clipTable;
-        modifiers_ = InstanceModifiers(modifiers ? instanceCount : 0, 0);
+        modifiers_ = InstanceModifiers(room.modifiers ? instanceCount : 0, 0);
         stateElements_ =
-            shared::modifiersBegin(0) + (modifiers ? shared::kMaxModifiers * shared::kModifierElements : 0);
+            shared::modifiersBegin(0) + (room.modifiers ? shared::kMaxModifiers * shared::kModifierElements : 0);
         states_.resize(size_t{instanceCount} * 4 * stateElements_);
         locals_.resize(instanceCount * table.nodes.size());
-        held_.resize(modifiers ? size_t{instanceCount} * table.footCount : 0);
+        held_.resize(room.modifiers ? size_t{instanceCount} * table.footCount : 0);
         hasLocals_.resize(instanceCount, 0);
         twin_ = skinning::PoseTwin(table, skinning::PoseLayout::of(layout.mode, layout.jointCount, 0), 0);
     }
-    if (springs) {
+    if (room.hasSteps()) {
+        steps_ = HostSteps(instanceCount, room.cloths);
+    }
+    if (room.soft) {
+        soft_ = HostSoft(layout, instanceCount, room);
+    }
+    if (room.springs) {
         springs_ = HostSprings(asset, instanceCount);
         swungPalette_.resize(layout.jointCount);
         swungRotations_.resize(layout.hasRotations() ? layout.jointCount : 0);
@@ -66,7 +72,7 @@ void HostPoses::reset(uint32_t instance) {
         state(instance).setModifierCount(0);
     }
     setTransform(instance, glm::mat4(1.0f));
-    springs_.settle(instance);
+    steps_.settle(instance);
 }
 
 std::span<skinning::Affine> HostPoses::palette(uint32_t instance) {
@@ -105,6 +111,7 @@ void HostPoses::finishPalette(uint32_t instance) {
 void HostPoses::setPose(uint32_t instance) {
     const skinning::Pose& pose = memory_.pose;
     setWeights(instance, nullptr);
+    steps_.setPosed(instance);
     if (keepsLocals()) {
         keepLocals(instance);
         modify(instance);
@@ -184,7 +191,7 @@ void HostPoses::setBindPose(uint32_t instance) {
     std::fill_n(poseWeights_.begin() + static_cast<ptrdiff_t>(instance * targetCount_), targetCount_, 0.0f);
     drivers_.setBindPose(instance);
     forgetLocals(instance);
-    springs_.setBindPose(instance);
+    steps_.setBindPose(instance);
     finishPalette(instance);
 }
 
@@ -238,6 +245,7 @@ void HostPoses::setJointMatrices(uint32_t instance, const SuppleJointMatricesDes
     drivers_.setJoints(instance, own);
     forgetLocals(instance);
     springs_.setJoints(instance, own);
+    steps_.setPosed(instance);
     finishPalette(instance);
 }
 
@@ -270,6 +278,7 @@ void HostPoses::takeOverJoints(const HostPoses& other, uint32_t instance, const 
     }
     drivers_.setJoints(instance, own);
     springs_.setJoints(instance, own);
+    steps_.setPosed(instance);
     finishPalette(instance);
 }
 
@@ -310,6 +319,7 @@ void HostPoses::takeOverModified(HostPoses& other, uint32_t instance, const Asse
 
 void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& match) {
     origin_ = other.origin_;
+    steps_.takeWind(other.steps_);
     for (uint32_t i = 0; i < count; ++i) {
         ++versions_[i];
         transforms_[i] = other.transforms_[i];
@@ -344,6 +354,8 @@ void HostPoses::takeOver(HostPoses& other, uint32_t count, const AssetMatch& mat
             std::copy_n(other.hasLocals_.begin(), count, hasLocals_.begin());
             springs_.takeOver(other.springs_, count);
         }
+        steps_.takeOver(other.steps_, count);
+        soft_.takeOver(other.soft_, count);
     }
     for (uint32_t i = 0; i < count; ++i) {
         drive(i);
@@ -358,22 +370,31 @@ std::optional<skinning::Box> HostPoses::boundsOf(uint32_t instance, const skinni
     return skinning::movedBy(glm::dmat4(placement(instance)), skinned_.posed(reach, own, weightsOf(instance)));
 }
 
-void HostPoses::swing(uint32_t instance, skinning::InstancePose& pose) {
+void HostPoses::step(uint32_t instance, skinning::InstancePose& pose) {
     const SpringPlace place{glm::dmat3(glm::mat3(transforms_[instance])), positions_[instance]};
-    if (!springs_.swing(instance, place, pose.transform)) {
+    const HostSteps::Due due = steps_.take(instance, place);
+    springs_.begin(instance);
+    soft_.begin(instance, due, pose.transform);
+    for (uint32_t k = 0; k < due.steps.count; ++k) {
+        springs_.step(instance, due, k, pose.transform);
+        soft_.step(instance, due.ways[k], pose, springs_);
+    }
+    soft_.end(instance, pose);
+    if (!hasSprings()) {
         return;
     }
     std::copy(pose.palette.begin(), pose.palette.end(), swungPalette_.begin());
     std::copy(pose.rotations.begin(), pose.rotations.end(), swungRotations_.begin());
-    springs_.show(swungPalette_, swungRotations_);
+    springs_.show(instance, due.steps.part, swungPalette_, swungRotations_);
     pose.palette = swungPalette_;
     pose.rotations = swungRotations_;
 }
 
-void HostPoses::write(uint64_t frame, double time, const InstanceSlots& slots, std::byte* target) {
+void HostPoses::write(const Frame& frame, const InstanceSlots& slots, std::byte* target) {
     const size_t joints = layout_.jointCount;
     const uint32_t count = slots.end();
-    springs_.setTime(frame, time);
+    steps_.setTime(frame.number, frame.time);
+    soft_.beginFrame(frame.number);
     for (uint32_t instance = 0; instance < count; ++instance) {
         skinning::InstancePose pose;
         pose.palette = std::span(palettes_).subspan(instance * joints, joints);
@@ -382,11 +403,20 @@ void HostPoses::write(uint64_t frame, double time, const InstanceSlots& slots, s
         }
         pose.morphWeights = weightsOf(instance);
         pose.transform = placement(instance);
-        if (slots.shows(instance)) {
-            swing(instance, pose);
+        if (!frame.leavesOut && slots.shows(instance) && steps_.runs(instance)) {
+            step(instance, pose);
         }
         skinning::writePose(layout_, pose, target);
         target += instanceBytes();
+    }
+    soft_.endFrame();
+    steps_.endFrame();
+}
+
+void HostPoses::cancelFrame(uint64_t frame) {
+    for (const uint32_t instance : steps_.cancelFrame(frame)) {
+        springs_.restore(instance);
+        soft_.restore(instance);
     }
 }
 

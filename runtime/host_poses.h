@@ -4,7 +4,9 @@
 #include "runtime/asset.h"
 #include "runtime/asset_match.h"
 #include "runtime/host_drivers.h"
+#include "runtime/host_soft.h"
 #include "runtime/host_springs.h"
+#include "runtime/host_steps.h"
 #include "runtime/instance_modifiers.h"
 #include "runtime/instance_slots.h"
 #include "skinning/deform_kernels.h"
@@ -32,9 +34,8 @@ class HostPoses {
 public:
     HostPoses() = default;
     /// All instances in the bind pose, placed by the identity. The asset must outlive this.
-    /// `modifiers`, `springs`: instances may have some; then the asset has its clip table.
-    HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, bool modifiers,
-              bool springs);
+    /// With room for modifiers or springs the asset has its clip table.
+    HostPoses(const Asset& asset, uint32_t instanceCount, const skinning::PoseLayout& layout, const StateRoom& room);
 
     [[nodiscard]] const skinning::PoseLayout& layout() const { return layout_; }
     /// What an instance takes of the buffer of poses.
@@ -58,7 +59,7 @@ public:
         ++versions_[instance];
         positions_[instance] = position;
         modifyInWorld(instance);
-        springs_.place(instance);
+        steps_.place(instance);
     }
     /// Where the coordinates of the device begin.
     void setOrigin(const glm::dvec3& origin);
@@ -75,9 +76,13 @@ public:
     void takeOver(HostPoses& other, uint32_t count, const AssetMatch& match);
 
     [[nodiscard]] bool hasSprings() const { return springs_.areTaken(); }
-    /// Its springs see no movement from where it stood to where it stands in the next frame.
-    void teleport(uint32_t instance) { springs_.jump(instance); }
-    void settleSprings() { springs_.settleAll(); }
+    /// Its steps see no movement from where it stood to where it stands in the next frame.
+    void teleport(uint32_t instance) { steps_.jump(instance); }
+    void setWind(const glm::dvec3& velocity) { steps_.setWind(velocity); }
+    void settleSteps() { steps_.settleAll(); }
+    /// Poses of steps, where something is soft: create() once, recordUpload() behind write().
+    [[nodiscard]] HostSoft& soft() { return soft_; }
+    [[nodiscard]] const HostSoft& soft() const { return soft_; }
 
     /// Where the joint is, as the instance is posed and placed now, without its swinging.
     [[nodiscard]] glm::mat4 jointTransform(uint32_t instance, uint32_t joint) const;
@@ -87,10 +92,15 @@ public:
     /// A box that holds the instance's cage, as it is posed and placed now; nothing if joints of it swing.
     [[nodiscard]] std::optional<skinning::Box> boundsOf(uint32_t instance, const skinning::Reach& reach) const;
 
-    /// Writes the instances, instanceBytes() each, in the layout of shaders/shared/deform.h. `time`: of the frame, by
-    /// which those swing that show.
-    void write(uint64_t frame, double time, const InstanceSlots& slots, std::byte* target);
-    void cancelFrame(uint64_t frame) { springs_.cancelFrame(frame); }
+    struct Frame {
+        uint64_t number = 0;
+        double time = 0.0;      ///< of the host
+        bool leavesOut = false; ///< all instances: none runs a step
+    };
+    /// Writes the instances, instanceBytes() each, in the layout of shaders/shared/deform.h. Those that show run the
+    /// steps that are due.
+    void write(const Frame& frame, const InstanceSlots& slots, std::byte* target);
+    void cancelFrame(uint64_t frame);
 
 private:
     void setPose(uint32_t instance); ///< from pose_
@@ -112,7 +122,8 @@ private:
             modify(instance);
         }
     }
-    void swing(uint32_t instance, skinning::InstancePose& pose);
+    /// Runs the instance's steps; `pose` is then what is shown.
+    void step(uint32_t instance, skinning::InstancePose& pose);
     void takeOverModified(HostPoses& other, uint32_t instance, const AssetMatch& match);
     [[nodiscard]] skinning::PlaybackState state(uint32_t instance) {
         return skinning::PlaybackState(stateWords(instance));
@@ -168,7 +179,9 @@ private:
     std::vector<glm::vec4> held_;           ///< where the pose's clips hold feet, one a foot of the clip table
     std::vector<uint8_t> hasLocals_;        ///< 0: the bind pose, or matrices
     skinning::PoseTwin twin_;
+    HostSteps steps_; ///< of what follows
     HostSprings springs_;
+    HostSoft soft_;
     std::vector<skinning::Affine> swungPalette_; ///< of one instance
     std::vector<glm::vec4> swungRotations_;
 };

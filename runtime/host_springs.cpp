@@ -42,14 +42,13 @@ shared::Transform between(const shared::Transform& a, const shared::Transform& b
 HostSprings::HostSprings(const Asset& asset, uint32_t capacity)
     : asset_(&asset), nodeCount_(asset.clipTable->nodes.size()),
       stateElements_(skinning::SpringTwin::stateElements(*asset.clipTable)),
-      jointOfNode_(asset.character.skeleton.nodes.size(), cage::kNone), globals_(jointOfNode_.size()), clock_(capacity),
+      jointOfNode_(asset.character.skeleton.nodes.size(), cage::kNone), globals_(jointOfNode_.size()),
       twin_(*asset.clipTable),
       shownTwin_(*asset.clipTable,
                  skinning::PoseLayout::of(skinning::SkinningMode::linear, asset.clipTable->jointCount, 0), 0),
       placedWords_(4 * size_t{skinning::PlaybackState::elements(0, 0)}), shown_(nodeCount_),
-      posed_(capacity * nodeCount_), before_(posed_.size()), states_(capacity * stateElements_), slots_(capacity),
-      undoBefore_(posed_.size()), undoStates_(states_.size()), undoSlots_(capacity) {
-    undone_.reserve(capacity);
+      posed_(capacity * nodeCount_), before_(posed_.size()), states_(capacity * stateElements_),
+      undoBefore_(posed_.size()), undoStates_(states_.size()) {
     const skinning::ClipTable& table = *asset.clipTable;
     const auto flags = [&](size_t place) { return table.words[4 * place * shared::kNodeElements + 1]; };
     for (uint32_t j = 0; j < table.jointCount; ++j) {
@@ -70,7 +69,6 @@ HostSprings::HostSprings(const Asset& asset, uint32_t capacity)
 void HostSprings::setPose(uint32_t slot, std::span<const shared::Transform> locals) {
     if (areTaken()) {
         std::copy(locals.begin(), locals.end(), of(posed_, slot).begin());
-        slots_[slot].isPosed = true;
     }
 }
 
@@ -95,70 +93,40 @@ void HostSprings::setJoints(uint32_t slot, std::span<const glm::mat4> joints) {
         of(posed_, slot)[place] =
             transformOf(flat ? cage::localMatrix(nodes[node]) : glm::inverse(parent) * globals_[node]);
     }
-    slots_[slot].isPosed = true;
 }
 
-void HostSprings::setBindPose(uint32_t slot) {
+void HostSprings::begin(uint32_t slot) {
     if (areTaken()) {
-        slots_[slot].isPosed = false;
-        clock_.settle(slot);
+        copyTo(of(before_, slot), of(undoBefore_, slot));
+        copyTo(stateOf(states_, slot), stateOf(undoStates_, slot));
     }
 }
 
-void HostSprings::setTime(uint64_t frame, double time) {
-    if (frame_ != frame) {
-        timeBefore_ = time_;
-        frame_ = frame;
-        undone_.clear();
-    }
-    time_ = time;
-}
-
-void HostSprings::keepForUndo(uint32_t slot) {
-    if (slots_[slot].frame == frame_) {
-        return;
-    }
-    undone_.push_back(slot);
-    undoSlots_[slot] = slots_[slot];
-    slots_[slot].frame = frame_;
-    copyTo(of(before_, slot), of(undoBefore_, slot));
-    copyTo(stateOf(states_, slot), stateOf(undoStates_, slot));
-}
-
-void HostSprings::pose(uint32_t slot, double part) {
+void HostSprings::pose(uint32_t slot, float part) {
     const std::span<const shared::Transform> from = of(before_, slot), to = of(posed_, slot);
     for (const uint32_t place : needed_) {
-        shown_[place] = part < 1.0 ? between(from[place], to[place], static_cast<float>(part)) : to[place];
+        shown_[place] = part < 1.0f ? between(from[place], to[place], part) : to[place];
     }
 }
 
-bool HostSprings::swing(uint32_t slot, const SpringPlace& place, const glm::mat4& placement) {
-    if (!areTaken() || !slots_[slot].isPosed) {
-        return false;
+void HostSprings::step(uint32_t slot, const HostSteps::Due& due, uint32_t step, const glm::mat4& placement) {
+    if (!areTaken()) {
+        return;
     }
-    keepForUndo(slot);
-    Slot& own = slots_[slot];
-    const SpringClock::Due due = clock_.take(slot, frame_, time_, place, false);
-    const std::span<glm::vec4> state = stateOf(states_, slot);
-    const double span = time_ - own.time;
-    for (uint32_t k = 0; k < due.count; ++k) {
-        const bool onTheWay = !due.settles && span > 0.0 && k < due.jump; // none: behind all
-        pose(slot, onTheWay ? (springTime(due.first + k) - own.time) / span : 1.0);
-        skinning::SpringTwin::Step now{shared::identity(), affineOf(placement), due.settles};
-        if (due.moves && due.jump != k) {
-            now.move = {due.rows[k][0], due.rows[k][1], due.rows[k][2]};
-        }
-        twin_.step(shown_, now, state);
+    pose(slot, due.ways[step]);
+    skinning::SpringTwin::Step now{shared::identity(), affineOf(placement), due.steps.settles, {}};
+    if (due.steps.moves && due.steps.jump != step) {
+        const std::array<glm::vec4, 3>& rows = due.steps.rows[step];
+        now.move = {rows[0], rows[1], rows[2]};
     }
-    own.time = time_;
-    copyTo(of(posed_, slot), of(before_, slot));
-    copyTo(of(posed_, slot), std::span(shown_));
-    twin_.show(state, due.part, shown_);
+    now.wind = due.steps.wind[step];
+    twin_.step(shown_, now, stateOf(states_, slot));
+}
+
+void HostSprings::turn(std::span<glm::vec4> state, float part, std::span<skinning::Affine> palette,
+                       std::span<glm::vec4> rotations) {
+    twin_.show(state, part, shown_);
     shownTwin_.poseLocals(placedWords_, shown_, {});
-    return true;
-}
-
-void HostSprings::show(std::span<skinning::Affine> palette, std::span<glm::vec4> rotations) const {
     for (const uint32_t joint : hanging_) {
         const shared::Affine skinned = shownTwin_.skinned(joint);
         palette[joint] = {{skinned.x, skinned.y, skinned.z}};
@@ -168,31 +136,32 @@ void HostSprings::show(std::span<skinning::Affine> palette, std::span<glm::vec4>
     }
 }
 
-void HostSprings::cancelFrame(uint64_t frame) {
-    if (frame_ != frame) {
-        return;
+void HostSprings::showStep(uint32_t slot, std::span<skinning::Affine> palette, std::span<glm::vec4> rotations) {
+    if (areTaken()) {
+        turn(stateOf(states_, slot), 1.0f, palette, rotations);
     }
-    clock_.cancelFrame(frame);
-    time_ = timeBefore_;
-    for (const uint32_t slot : undone_) {
-        undoSlots_[slot].isPosed = slots_[slot].isPosed; // by calls since then
-        slots_[slot] = undoSlots_[slot];
+}
+
+void HostSprings::show(uint32_t slot, float part, std::span<skinning::Affine> palette, std::span<glm::vec4> rotations) {
+    copyTo(of(posed_, slot), of(before_, slot));
+    copyTo(of(posed_, slot), std::span(shown_));
+    turn(stateOf(states_, slot), part, palette, rotations);
+}
+
+void HostSprings::restore(uint32_t slot) {
+    if (areTaken()) {
         copyTo(of(undoBefore_, slot), of(before_, slot));
         copyTo(stateOf(undoStates_, slot), stateOf(states_, slot));
     }
-    undone_.clear();
 }
 
 void HostSprings::takeOver(const HostSprings& other, uint32_t count) {
     if (!areTaken()) {
         return;
     }
-    clock_.takeOver(other.clock_, count);
-    time_ = other.time_;
     std::copy_n(other.posed_.begin(), count * nodeCount_, posed_.begin());
     std::copy_n(other.before_.begin(), count * nodeCount_, before_.begin());
     std::copy_n(other.states_.begin(), count * stateElements_, states_.begin());
-    std::copy_n(other.slots_.begin(), count, slots_.begin());
 }
 
 } // namespace supple::runtime

@@ -176,12 +176,12 @@ void InstanceSet::addTransfers(Transfers& transfers) const {
     transfers.add(userData_.buffer().buffer());
 }
 
-PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, double time,
+PassCost InstanceSet::recordPoses(VkCommandBuffer commandBuffer, const HostPoses::Frame& frame,
                                   const glm::dvec3& origin) {
     poses_->setOrigin(origin, slots_.end());
-    PassCost cost = poses_->recordUpload(commandBuffer, frame, time, slots_);
-    cost.bytes += userData_.recordUpload(*desc_.device, commandBuffer, frame, desc_.handsOver, slots_.end());
-    cost.bytes += creaseAlphas_.recordUpload(*desc_.device, commandBuffer, frame, false, slots_.end());
+    PassCost cost = poses_->recordUpload(commandBuffer, frame, slots_);
+    cost.bytes += userData_.recordUpload(*desc_.device, commandBuffer, frame.number, desc_.handsOver, slots_.end());
+    cost.bytes += creaseAlphas_.recordUpload(*desc_.device, commandBuffer, frame.number, false, slots_.end());
     return cost;
 }
 

@@ -46,8 +46,6 @@ public:
     [[nodiscard]] const StateRoom& room() const { return desc_.room; }
     [[nodiscard]] PoseSource& poses() { return *poses_; }
     [[nodiscard]] const PoseSource& poses() const { return *poses_; }
-    /// Only where instances play on the device.
-    [[nodiscard]] const Playback& playback() const { return *poses_->playback(); }
     [[nodiscard]] UserData& userData() { return userData_; }
     /// Without a buffer if the character has no crease sets.
     [[nodiscard]] const CreaseAlphas& creaseAlphas() const { return creaseAlphas_; }
@@ -75,7 +73,7 @@ public:
     /// Takes over the instances of another set, which has no more than this one's capacity: handles, poses, places.
     void takeOver(InstanceSet& other, const AssetMatch& match);
     /// This frame's poses and user data.
-    PassCost recordPoses(VkCommandBuffer commandBuffer, uint64_t frame, double time, const glm::dvec3& origin);
+    PassCost recordPoses(VkCommandBuffer commandBuffer, const HostPoses::Frame& frame, const glm::dvec3& origin);
 
 private:
     /// The asset has its clip table: whether joints swing, and not too many.

@@ -52,10 +52,14 @@ bool refreshTasks(const Frame& frame, Group& group, gpu::KeptTasks::Owner& kept)
         return rewriteTasks(frame, group, {*frame.tasks, kept, 0}, 0, kLast);
     }
     const Playback* const playback = now.poses != 0 ? group.poses().playback() : nullptr;
+    const auto [first, last] = posePlaces();
+    if (group.stages().tasks() == CageStageRow::Tasks::written) {
+        const auto stages = static_cast<uint32_t>(frame.context.stageRows().size()); // which follow poses
+        return rewriteTasks(frame, group, {*frame.tasks, kept, first}, first, last + stages);
+    }
     if (playback == nullptr) {
         return true;
     }
-    const auto [first, last] = posePlaces();
     if (now.poses != before.poses || playback->listsPoses()) {
         return rewriteTasks(frame, group, {*frame.tasks, kept, first}, first, last);
     }

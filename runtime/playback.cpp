@@ -28,6 +28,17 @@ float largestScale(const glm::mat3& linear) {
     return std::sqrt(most);
 }
 
+/// The length of the box that holds the cage at rest.
+float extentOf(const cage::Cage& cage) {
+    glm::vec3 low(cage.positions.front()), high(low);
+    for (const glm::vec3& p : cage.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::vec3 size = high - low;
+    return std::max({size.x, size.y, size.z});
+}
+
 /// A node's place in the table of another version of the asset, or kNone.
 uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::ClipTable& table) {
     const uint32_t moved = match.nodes[node];
@@ -64,7 +75,8 @@ Status Playback::create(const Desc& desc) {
         rates_ = UpdateRates(desc.capacity);
     }
     if (desc.room.hasSteps()) {
-        springs_ = SpringClock(desc.capacity);
+        extent_ = extentOf(desc.asset->character.cage);
+        springs_ = SpringClock(desc.capacity, desc.room.cloths);
     }
     if (desc.room.springs) {
         bounds_.setSwinging(table.swinging);
@@ -236,6 +248,7 @@ void Playback::reset(uint32_t slot) {
     bounds_.setBindPose(slot);
     rates_.reset(slot);
     springs_.settle(slot);
+    detail_.forget(slot);
     if (takesModifiers()) {
         bounds_.setTurned(slot, {}, false, 0.0);
     }
@@ -477,6 +490,7 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
 void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match) {
     time_ = other.time_;
     origin_ = other.origin_;
+    springs_.takeWind(other.springs_);
     masks_.takeOver(other.masks_, match);
     if (match.same) {
         adds_ = other.adds_;
@@ -490,6 +504,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         rates_.takeOver(other.rates_, count);
         steps_ = other.steps_;
         springs_.takeOver(other.springs_, count);
+        detail_.takeOver(other.detail_, count);
         springState_.takeOver(other.springState_, count);
     }
     for (uint32_t slot = 0; slot < count; ++slot) {
@@ -529,6 +544,11 @@ void Playback::setSize(uint32_t slot, float pixelsPerUnit) {
     }
 }
 
+void Playback::setStepSize(uint32_t slot, float pixelsPerUnit) {
+    const float scale = largestScale(glm::mat3(transforms_[slot]));
+    detail_.setSize(slot, pixelsPerUnit * scale * extent_, time_);
+}
+
 PoseSpan Playback::spanOf(uint32_t slot) {
     const uint32_t interval = rates_.interval(slot);
     if (interval <= 1 || states_.state(slot).modifierCount() > 0) {
@@ -562,22 +582,18 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
         springs_.settle(slot);
         return;
     }
+    const float fade = detail_.fade(slot);
+    if (fade == 0.0f) {
+        return;
+    }
     const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
     const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
-    const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
-    const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
-    const bool hasMoves = due.moves || hasCloths_; // which ask where down is
-    const uint32_t begins = due.settles ? kSpringSettles | due.skipped << kSpringSkippedShift : 0;
-    list_.addSwinging(slotInWindow, due.count | jump | number | begins, due.part, hasMoves);
+    list_.addSteps(slotInWindow, due, hasCloths_, fade);
     for (uint32_t k = 0; k < due.count; ++k) {
-        const double time = springTime(due.first + k);
         const std::span<const uint32_t> played = due.before[k] ? states_.before(slot) : states_.words(slot);
         const bool travels = (played[1] & kStateTravels) != 0;
-        list_.addStep(slotInWindow, (due.before[k] ? kPosedBefore : 0) | (travels ? kPosedTravels : 0), time);
-        firstStep_ = std::min(firstStep_, time);
-        if (hasMoves) {
-            list_.addMove(due.rows[k], due.down[k]);
-        }
+        list_.flagStep(k, (due.before[k] ? kPosedBefore : 0) | (travels ? kPosedTravels : 0));
+        firstStep_ = std::min(firstStep_, springTime(due.first + k));
     }
 }
 
@@ -710,7 +726,7 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
     }
 }
 
-Playback::StepPoses Playback::stepPoses() const {
+StepPoses Playback::stepPoses() const {
     return {ends_.buffer(),     scratch_.buffer(),   list_.buffer(),
             endBytes(),         scratchBytes(),      list_.bytes(),
             push_.endStride,    push_.scratchStride, kAffineElements * push_.nodeCount,

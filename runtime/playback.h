@@ -15,6 +15,7 @@
 #include "runtime/played_states.h"
 #include "runtime/pose_list.h"
 #include "runtime/spring_clock.h"
+#include "runtime/step_detail.h"
 #include "runtime/update_rates.h"
 #include "skinning/deform_kernels.h"
 #include "skinning/layers.h"
@@ -85,8 +86,10 @@ public:
     [[nodiscard]] bool listsPoses() const { return list_.isTaken(); }
     /// Its springs see no movement from where it stood to where it stands in the next frame.
     void teleport(uint32_t slot) { springs_.jump(slot, time_); }
-    /// All begin anew: tails at rest in the pose.
-    void settleSprings() { springs_.settleAll(); }
+    /// Velocity in the world, from the group's time on.
+    void setWind(const glm::dvec3& velocity) { springs_.setWind(velocity, time_); }
+    /// All that runs steps begins anew.
+    void settleSteps() { springs_.settleAll(); }
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setPosition(uint32_t slot, const glm::dvec3& position);
     /// Where the coordinates of the device begin. A change places the instances of the slots below `end` anew; others
@@ -151,7 +154,14 @@ public:
     [[nodiscard]] bool asksForSize(uint32_t slot) const { return rates_.asked(slot) == 0; }
     /// `pixelsPerUnit`: at most, where the instance is.
     void setSize(uint32_t slot, float pixelsPerUnit);
-    void forgetSizes() { rates_.forgetChoices(); }
+    void forgetSizes() {
+        rates_.forgetChoices();
+        detail_.forgetAll();
+    }
+    /// Steps are run where instances are large enough on the screen: in each frame, setStepSize() says so. Once.
+    void takeStepSizes() { detail_ = StepDetail(capacity_); }
+    [[nodiscard]] bool takesStepSizes() const { return detail_.isTaken(); }
+    void setStepSize(uint32_t slot, float pixelsPerUnit);
     /// Lists what is posed in a frame, of the instances that `worksOn` holds for.
     template <class WorksOn>
     void listPoses(uint64_t frame, const InstanceWindows& windows, uint32_t end, WorksOn&& worksOn) {
@@ -166,6 +176,7 @@ public:
             }
             list_.endWindow(w);
         }
+        springs_.endFrame(frame);
     }
     VkDeviceSize recordList(VkCommandBuffer commandBuffer, uint64_t frame) {
         return list_.recordUpload(*device_, commandBuffer, frame);
@@ -187,13 +198,7 @@ public:
         return listsPoses() ? list_.poseCount() : windows.visible;
     }
 
-    /// Where a frame's steps are, for the stage that reads them; if hasSoft(). Buffers have so many bytes an
-    /// instance; strides and places are elements.
-    struct StepPoses {
-        VkBuffer poses = VK_NULL_HANDLE, scratch = VK_NULL_HANDLE, list = VK_NULL_HANDLE;
-        VkDeviceSize poseBytes = 0, scratchBytes = 0, listBytes = 0; ///< of the list: all
-        uint32_t poseStride = 0, scratchStride = 0, place = 0, way = 0;
-    };
+    /// If hasSoft().
     [[nodiscard]] StepPoses stepPoses() const;
     /// What listPoses() has listed.
     [[nodiscard]] const PoseList::Window& listedPoses(uint32_t window) const { return list_.window(window); }
@@ -268,6 +273,8 @@ private:
     PoseList list_;
 
     SpringClock springs_;
+    StepDetail detail_;
+    float extent_ = 0.0f;       ///< of the character as it rests
     InstanceState springState_; ///< created if hasSprings()
     static constexpr double kNever = std::numeric_limits<double>::infinity();
     double firstStep_ = kNever; ///< the earliest time of a step in the list

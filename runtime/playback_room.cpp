@@ -51,12 +51,6 @@ uint32_t springStride(const skinning::ClipTable& table, const StateRoom& room) {
     return room.springs ? padded(kSpringJoints + kSpringJointElements * table.springJointCount) : 0;
 }
 
-/// From one end of an instance, or the pose of one step, to the next. All together are a multiple of kPadding.
-uint32_t endStride(const skinning::PoseLayout& layout, const StateRoom& room) {
-    const uint32_t poses = unshownPoses(room), multiple = poses > 0 ? kPadding / poses : 1;
-    return poses > 0 ? (layout.elements() + multiple - 1) / multiple * multiple : 0;
-}
-
 } // namespace
 
 uint32_t posesInFrame(const StateRoom& room) {
@@ -67,10 +61,15 @@ uint32_t unshownPoses(const StateRoom& room) {
     return room.updateRates ? kPoseEnds : room.soft ? kMostSpringSteps : 0;
 }
 
+uint32_t unshownStride(const skinning::PoseLayout& layout, const StateRoom& room) {
+    const uint32_t poses = unshownPoses(room), multiple = poses > 0 ? kPadding / poses : 1;
+    return poses > 0 ? (layout.elements() + multiple - 1) / multiple * multiple : 0;
+}
+
 VkDeviceSize playbackWindowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
     const skinning::ClipTable& table = *asset.clipTable;
     return std::max({stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room),
-                     unshownPoses(room) * endStride(layout, room), springStride(table, room)}) *
+                     unshownPoses(room) * unshownStride(layout, room), springStride(table, room)}) *
            gpu::kVec4Bytes;
 }
 
@@ -91,7 +90,7 @@ PosePush posePushOf(const Asset& asset, const skinning::PoseLayout& layout, cons
     push.scratchStride = scratchStride(table, room);
     push.contacts = table.contacts;
     push.poseStride = layout.stride;
-    push.endStride = endStride(layout, room);
+    push.endStride = unshownStride(layout, room);
     push.morphWeights = layout.morphWeights;
     push.shown = UINT32_MAX;
     const bool poseAll = room.soft && skinning::isMush(layout.mode);

@@ -17,6 +17,7 @@ struct StateRoom {
     // For instances that play on the device:
     bool transitions = false;
     bool updateRates = false;
+    // For these, and for those whose poses the host sets:
     bool springs = false; ///< some joints of the asset swing
     bool soft = false;    ///< some vertices of the asset jiggle or are cloth
     bool cloths = false;  ///< are cloth
@@ -39,6 +40,10 @@ struct StateRoom {
 
 /// Poses of an instance that are kept beside what is shown: ends of update rates, or those of steps of what is soft.
 [[nodiscard]] uint32_t unshownPoses(const StateRoom& room);
+
+/// From one pose of an instance that is not shown to the next. All of them together are a multiple of every descriptor
+/// alignment.
+[[nodiscard]] uint32_t unshownStride(const skinning::PoseLayout& layout, const StateRoom& room);
 
 /// Of a transition in a state; 0: instances have none.
 [[nodiscard]] uint32_t transitionElements(const skinning::ClipTable& table, const skinning::PoseLayout& layout,

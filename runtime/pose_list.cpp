@@ -27,6 +27,39 @@ void PoseList::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t 
     staging_ = staging.add({"supple list of poses staging", bytes_ * framesInFlight, VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
 }
 
+void PoseList::addSteps(uint32_t slot, const SpringClock::Due& due, bool askForDown, float fade) {
+    using namespace shared;
+    const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
+    const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
+    const uint32_t begins = due.settles ? kSpringSettles | due.skipped << kSpringSkippedShift : 0;
+    const bool moves = due.moves || due.blows || askForDown;
+    swinging_.push_back({slot, static_cast<uint32_t>(steps_.size()), due.count | jump | number | begins,
+                         std::bit_cast<uint32_t>(due.part), moves ? static_cast<uint32_t>(moves_.size()) + 1 : 0,
+                         static_cast<uint32_t>(times_.size() / 2) - 1, std::bit_cast<uint32_t>(fade)});
+    for (uint32_t k = 0; k < due.count; ++k) {
+        const skinning::SplitTime split = skinning::splitTime(springTime(due.first + k));
+        steps_.push_back(slot);
+        stepTimes_.push_back(std::bit_cast<uint32_t>(split.high));
+        stepTimes_.push_back(std::bit_cast<uint32_t>(split.low));
+        if (moves) {
+            addMove(due, k);
+        }
+    }
+}
+
+void PoseList::addMove(const SpringClock::Due& due, uint32_t step) {
+    const auto add = [&](const auto& vector) {
+        for (int i = 0; i < vector.length(); ++i) {
+            moves_.push_back(std::bit_cast<uint32_t>(vector[i]));
+        }
+    };
+    for (const glm::vec4& row : due.rows[step]) {
+        add(row);
+    }
+    add(due.down[step]);
+    add(due.wind[step]);
+}
+
 void PoseList::endWindow(uint32_t window) {
     Window& own = windows_[window];
     own.shown = static_cast<uint32_t>(times_.size() / 2);

@@ -1,8 +1,9 @@
-// The list of what is posed, in groups with update rates, springs or what jiggles (shaders/shared/pose.h).
+// The list of what is posed, in groups with update rates, springs or what is soft (shaders/shared/pose.h).
 #pragma once
 
 #include "gpu/buffer_plan.h"
 #include "runtime/playback_room.h"
+#include "runtime/spring_clock.h"
 #include "shaders/shared/pose.h"
 #include "skinning/split_time.h"
 
@@ -14,6 +15,15 @@
 #include <vector>
 
 namespace supple::runtime {
+
+/// Where a frame's steps are, for stages that read them. Buffers have so many bytes an instance; strides and places are
+/// elements.
+struct StepPoses {
+    VkBuffer poses = VK_NULL_HANDLE, scratch = VK_NULL_HANDLE, list = VK_NULL_HANDLE;
+    VkDeviceSize poseBytes = 0, scratchBytes = 0, listBytes = 0; ///< of the list: all
+    uint32_t poseStride = 0, scratchStride = 0;
+    uint32_t place = 0, way = 0; ///< in an entry's run of the scratch memory: where it stands, what it has travelled
+};
 
 /// Listing allocates nothing.
 class PoseList {
@@ -51,29 +61,11 @@ public:
         mixes_.push_back(slot | earlierEnd << shared::kPosedEndShift);
         parts_.push_back(std::bit_cast<uint32_t>(part));
     }
-    /// Behind addPose() of the instance. Its steps and moves follow with addStep() and addMove().
-    void addSwinging(uint32_t slot, uint32_t steps, float part, bool moves) {
-        swinging_.push_back({slot, static_cast<uint32_t>(steps_.size()), steps, std::bit_cast<uint32_t>(part),
-                             moves ? static_cast<uint32_t>(moves_.size()) + 1 : 0,
-                             static_cast<uint32_t>(times_.size() / 2) - 1});
-    }
-    /// `flags`: kPosedBefore, kPosedTravels.
-    void addStep(uint32_t slot, uint32_t flags, double time) {
-        const skinning::SplitTime split = skinning::splitTime(time);
-        steps_.push_back(slot | flags);
-        stepTimes_.push_back(std::bit_cast<uint32_t>(split.high));
-        stepTimes_.push_back(std::bit_cast<uint32_t>(split.low));
-    }
-    void addMove(const std::array<glm::vec4, 3>& rows, const glm::vec3& down) {
-        for (const glm::vec4& row : rows) {
-            for (int i = 0; i < 4; ++i) {
-                moves_.push_back(std::bit_cast<uint32_t>(row[i]));
-            }
-        }
-        for (int i = 0; i < 3; ++i) {
-            moves_.push_back(std::bit_cast<uint32_t>(down[i]));
-        }
-    }
+    /// Behind addPose() of the instance, with what is shown: its steps. Their flags are 0. `askForDown`: steps need to
+    /// know where down is; `fade`: how much is shown of what they do.
+    void addSteps(uint32_t slot, const SpringClock::Due& due, bool askForDown, float fade = 1.0f);
+    /// Of the step `k` of the instance whose steps were added last: kPosedBefore, kPosedTravels.
+    void flagStep(uint32_t k, uint32_t flags) { steps_[swinging_.back()[1] + k] |= flags; }
     void endWindow(uint32_t window);
 
     /// Words of the list: entries, and what stands for each.
@@ -98,6 +90,7 @@ public:
     [[nodiscard]] bool recordedIn(uint64_t frame) const { return isTaken() && frame_ == frame; }
 
 private:
+    void addMove(const SpringClock::Due& due, uint32_t step);
     void endSwinging(Window& own);
     /// The word where they begin. Leaves none.
     uint32_t append(std::vector<uint32_t>& values);

@@ -9,7 +9,7 @@ class SetPoses final : public PoseSource {
 public:
     explicit SetPoses(const PoseSourceDesc& desc)
         : device_(desc.device), framesInFlight_(desc.framesInFlight), capacity_(desc.capacity),
-          poses_(*desc.asset, desc.capacity, desc.layout, desc.room.modifiers, desc.room.springs) {}
+          poses_(*desc.asset, desc.capacity, desc.layout, desc.room) {}
 
     void reset(uint32_t slot) override { poses_.reset(slot); }
     void setTransform(uint32_t slot, const glm::mat4& transform) override { poses_.setTransform(slot, transform); }
@@ -24,7 +24,8 @@ public:
     }
     [[nodiscard]] uint64_t boundsVersion(uint32_t slot) const override { return poses_.version(slot); }
     void teleport(uint32_t slot) override { poses_.teleport(slot); }
-    void settleSprings() override { poses_.settleSprings(); }
+    void setWind(const glm::dvec3& velocity) override { poses_.setWind(velocity); }
+    void settleSteps() override { poses_.settleSteps(); }
     void cancelFrame(uint64_t frame) override { poses_.cancelFrame(frame); }
     [[nodiscard]] bool takesModifiers() const override { return poses_.takesModifiers(); }
     void setModifiers(uint32_t slot, std::span<const PlacedModifier> modifiers) override {
@@ -48,16 +49,25 @@ public:
     }
     [[nodiscard]] Status create(const Buffers& buffers) override {
         target_ = buffers.poses;
-        return success();
+        return poses_.soft().create(*device_, buffers.windowSize, framesInFlight_);
     }
-    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double time,
+    [[nodiscard]] gpu::MemoryUse memoryUse() const override { return poses_.soft().memoryUse(); }
+    [[nodiscard]] StepPoses stepPoses() const override { return poses_.soft().stepPoses(); }
+    [[nodiscard]] const PoseList::Window* listedSteps(uint32_t window) const override {
+        return &poses_.soft().listed(window);
+    }
+    PassCost recordUpload(VkCommandBuffer commandBuffer, const HostPoses::Frame& frame,
                           const InstanceSlots& slots) override {
         const uint32_t end = slots.end();
-        const VkDeviceSize from = frame % framesInFlight_ * frameBytes(), bytes = end * poses_.instanceBytes();
-        poses_.write(frame, time, slots, staging_.mapped() + from);
+        const VkDeviceSize from = frame.number % framesInFlight_ * frameBytes();
+        VkDeviceSize bytes = end * poses_.instanceBytes();
+        poses_.write(frame, slots, staging_.mapped() + from);
         if (bytes > 0) {
             const VkBufferCopy region{from, 0, bytes};
             device_->vk.CmdCopyBuffer(commandBuffer, staging_.buffer(), target_, 1, &region);
+        }
+        if (poses_.soft().areTaken()) {
+            bytes += poses_.soft().recordUpload(commandBuffer);
         }
         return {uint64_t{poses_.layout().jointCount} * end, bytes};
     }
@@ -82,7 +92,8 @@ public:
     void setPosition(uint32_t slot, const glm::dvec3& position) override { playback_.setPosition(slot, position); }
     void setOrigin(const glm::dvec3& origin, uint32_t end) override { playback_.setOrigin(origin, end); }
     void teleport(uint32_t slot) override { playback_.teleport(slot); }
-    void settleSprings() override { playback_.settleSprings(); }
+    void setWind(const glm::dvec3& velocity) override { playback_.setWind(velocity); }
+    void settleSteps() override { playback_.settleSteps(); }
     void setMorphWeights(uint32_t slot, const float* weights) override { playback_.setMorphWeights(slot, weights); }
     [[nodiscard]] glm::mat4 jointTransform(uint32_t slot, uint32_t joint) override {
         return playback_.jointTransform(slot, joint);
@@ -116,8 +127,12 @@ public:
     [[nodiscard]] gpu::MemoryUse memoryUse() const override { return playback_.memoryUse(); }
     void recordWarmUp(VkCommandBuffer commandBuffer) const override { playback_.recordWarmUp(commandBuffer); }
 
-    PassCost recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double, const InstanceSlots&) override {
-        return {0, playback_.recordUpload(commandBuffer, frame)};
+    PassCost recordUpload(VkCommandBuffer commandBuffer, const HostPoses::Frame& frame, const InstanceSlots&) override {
+        return {0, playback_.recordUpload(commandBuffer, frame.number)};
+    }
+    [[nodiscard]] StepPoses stepPoses() const override { return playback_.stepPoses(); }
+    [[nodiscard]] const PoseList::Window* listedSteps(uint32_t window) const override {
+        return &playback_.listedPoses(window);
     }
     void beginFrame(uint64_t completedFrame) override { playback_.beginFrame(completedFrame); }
     void cancelFrame(uint64_t frame) override { playback_.cancelFrame(frame); }
@@ -146,7 +161,9 @@ private:
 VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset, const skinning::PoseLayout& layout,
                              const StateRoom& room) {
     const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? playbackWindowBytes(asset, layout, room) : 0;
-    return std::max(played, VkDeviceSize{layout.stride} * 16);
+    const bool handsSteps = source == SUPPLE_POSES_SET && room.soft;
+    const VkDeviceSize steps = handsSteps ? HostSoft::windowBytes(layout, room) : 0;
+    return std::max({played, steps, VkDeviceSize{layout.stride} * 16});
 }
 
 std::unique_ptr<PoseSource> makePoseSource(SupplePoseSource source, const PoseSourceDesc& desc) {

@@ -31,8 +31,9 @@ public:
     /// Where the coordinates of the device begin, for the next recording and for jointTransform(). `end`: slots below
     /// it may be in use.
     virtual void setOrigin(const glm::dvec3& /*origin*/, uint32_t /*end*/) {}
-    virtual void teleport(uint32_t /*slot*/) {} ///< it has jumped to where the next recording places it
-    virtual void settleSprings() {}             ///< all begin anew: tails at rest in the pose
+    virtual void teleport(uint32_t /*slot*/) {}             ///< it has jumped to where the next recording places it
+    virtual void setWind(const glm::dvec3& /*velocity*/) {} ///< about all instances, from the group's time on
+    virtual void settleSteps() {}                           ///< all that runs steps begins anew
     virtual void setMorphWeights(uint32_t /*slot*/, const float* /*weights*/) {} ///< null: the pose's own again
     /// Where a joint is, as the next recording poses and places the instance.
     [[nodiscard]] virtual glm::mat4 jointTransform(uint32_t /*slot*/, uint32_t /*joint*/) { return glm::mat4(1.0f); }
@@ -68,11 +69,15 @@ public:
     [[nodiscard]] virtual gpu::MemoryUse memoryUse() const { return {}; } ///< beside the planned buffers
 
     // Recording.
-    /// `time`: of the frame (SuppleRecordDesc.time).
-    virtual PassCost recordUpload(VkCommandBuffer /*commandBuffer*/, uint64_t /*frame*/, double /*time*/,
+    /// The time of the frame is SuppleRecordDesc.time.
+    virtual PassCost recordUpload(VkCommandBuffer /*commandBuffer*/, const HostPoses::Frame& /*frame*/,
                                   const InstanceSlots& /*slots*/) {
         return {};
     }
+    // Where something is soft:
+    [[nodiscard]] virtual StepPoses stepPoses() const { return {}; }
+    /// What is listed of the frame that is recorded.
+    [[nodiscard]] virtual const PoseList::Window* listedSteps(uint32_t /*window*/) const { return nullptr; }
     /// The pose pass has seven parts with a barrier between each two. Whether the source has this one.
     [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
     virtual PassCost recordPart(gpu::Dispatches& /*dispatches*/, Playback::Part /*part*/,

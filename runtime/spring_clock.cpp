@@ -36,6 +36,17 @@ glm::vec3 downWithin(const SpringPlace& place) {
     return sound ? glm::vec3(down / length) : glm::vec3(0.0f, -1.0f, 0.0f);
 }
 
+glm::vec3 velocityWithin(const SpringPlace& place, const glm::dvec3& velocity) {
+    if (!(std::abs(glm::determinant(place.linear)) > 1e-30)) {
+        return glm::vec3(0.0f);
+    }
+    constexpr double kMost = 1e6;
+    const glm::dvec3 within = glm::inverse(place.linear) * velocity;
+    const double length = glm::length(within);
+    const bool sound = length < 1e30;
+    return sound ? glm::vec3(within * std::min(1.0, kMost / std::max(length, kMost))) : glm::vec3(0.0f);
+}
+
 std::array<glm::vec4, 3> rowsOf(const SpringPlace& place) {
     std::array<glm::vec4, 3> rows;
     for (int r = 0; r < 3; ++r) {
@@ -50,6 +61,31 @@ int64_t springStepAt(double time) {
     step -= springTime(step) > time ? 1 : 0; // the product was rounded
     step += springTime(step + 1) <= time ? 1 : 0;
     return step;
+}
+
+void Wind::set(const glm::dvec3& velocity, double time) {
+    if (!changed_) {
+        before_ = now_;
+        since_ = time;
+        changed_ = true;
+    }
+    now_ = velocity;
+}
+
+void Wind::endFrame(uint64_t frame) {
+    frame_ = frame;
+    undoChanged_ = changed_;
+    undoBefore_ = before_;
+    undoSince_ = since_;
+    changed_ = false;
+}
+
+void Wind::cancelFrame(uint64_t frame) {
+    if (frame_ == frame && undoChanged_) {
+        changed_ = true;
+        before_ = undoBefore_;
+        since_ = undoSince_;
+    }
 }
 
 void SpringClock::settle(uint32_t slot) {
@@ -113,13 +149,24 @@ SpringClock::Due SpringClock::begun(const Slot& own, double time) {
     return due;
 }
 
-void SpringClock::move(Slot& own, Due& due, double time, const SpringPlace& place, bool travels) {
+void SpringClock::findAir(Due& due, uint32_t step, const SpringPlace& place) const {
+    if (findsDown_) {
+        due.down[step] = downWithin(place);
+    }
+    const glm::dvec3& wind = wind_.at(springTime(due.first + step));
+    if (wind != glm::dvec3(0.0)) {
+        due.blows = true;
+        due.wind[step] = velocityWithin(place, wind);
+    }
+}
+
+void SpringClock::move(Slot& own, Due& due, double time, const SpringPlace& place, bool travels) const {
     for (uint32_t k = 0; k < due.count; ++k) {
         if (due.moves && !own.isElsewhere) {
             const SpringPlace now = placeAt(own, springTime(due.first + k), time, place, travels);
             own.move = placeWithin(now, own.atLast);
             own.atLast = now;
-            due.down[k] = downWithin(now);
+            findAir(due, k, now);
         }
         due.rows[k] = rowsOf(own.move);
     }
@@ -149,7 +196,7 @@ SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, c
         const double stepTime = springTime(due.first + k);
         due.before[k] = stepTime < own.changed && hasBefore(slot);
         const bool stoodThere = own.jumped != kNoTime && stepTime < own.jumped;
-        due.down[k] = downWithin(stoodThere ? own.inFrame : place);
+        findAir(due, k, stoodThere ? own.inFrame : place);
         if (stepTime >= own.jumped) {
             due.jump = due.jump == kNone ? k : due.jump;
         }
@@ -174,6 +221,7 @@ SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, c
 }
 
 void SpringClock::cancelFrame(uint64_t frame) {
+    wind_.cancelFrame(frame);
     if (undoFrame_ == frame) {
         // The first of a slot is what it was.
         std::for_each(undo_.rbegin(), undo_.rend(), [&](const Undo& undo) {

@@ -25,6 +25,8 @@ struct SpringPlace {
 [[nodiscard]] SpringPlace placeWithin(const SpringPlace& now, const SpringPlace& before);
 /// The direction of the world's down, within it.
 [[nodiscard]] glm::vec3 downWithin(const SpringPlace& place);
+/// A velocity of the world, within it: in its units. 0 if the place flattens; never absurdly large.
+[[nodiscard]] glm::vec3 velocityWithin(const SpringPlace& place, const glm::dvec3& velocity);
 /// Three rows of it.
 [[nodiscard]] std::array<glm::vec4, 3> rowsOf(const SpringPlace& place);
 
@@ -34,13 +36,36 @@ struct SpringPlace {
     return static_cast<double>(step) / shared::kSpringSteps;
 }
 
+/// A wind that is set from time to time. Steps before a call have what blew until then.
+class Wind {
+public:
+    void set(const glm::dvec3& velocity, double time);
+    [[nodiscard]] const glm::dvec3& at(double time) const { return changed_ && time < since_ ? before_ : now_; }
+    /// A frame has asked for its steps: later calls change the wind of later ones.
+    void endFrame(uint64_t frame);
+    void cancelFrame(uint64_t frame);
+
+private:
+    glm::dvec3 now_{0.0}, before_{0.0};
+    double since_ = 0.0;
+    bool changed_ = false; ///< since the last frame
+    // What that frame has found.
+    uint64_t frame_ = 0;
+    bool undoChanged_ = false;
+    glm::dvec3 undoBefore_{0.0};
+    double undoSince_ = 0.0;
+};
+
 /// Asking allocates nothing.
 class SpringClock {
 public:
     SpringClock() = default; ///< not taken
-    explicit SpringClock(uint32_t capacity) : slots_(capacity) { undo_.reserve(capacity); }
-    /// False: no instance has springs. What settles, jumps, is placed or changes counts for nothing then; nothing else
-    /// may be called.
+    /// `findsDown`: for each step, where down is.
+    SpringClock(uint32_t capacity, bool findsDown) : findsDown_(findsDown), slots_(capacity) {
+        undo_.reserve(capacity);
+    }
+    /// False: no instance runs steps. What settles, jumps, is placed or changes counts for nothing then; of the rest
+    /// only the wind may be set.
     [[nodiscard]] bool isTaken() const { return !slots_.empty(); }
 
     /// The instance begins anew with its next step: tails at rest in the pose.
@@ -58,6 +83,10 @@ public:
     [[nodiscard]] bool change(uint32_t slot, double time);
     [[nodiscard]] bool hasBefore(uint32_t slot) const { return slots_[slot].changed != kNoTime; }
 
+    /// The wind about all instances, from a time of the group on.
+    void setWind(const glm::dvec3& velocity, double time) { wind_.set(velocity, time); }
+    void takeWind(const SpringClock& other) { wind_ = other.wind_; }
+
     static constexpr uint32_t kNone = 0xFFFFFFFFu;
     /// The steps that an instance runs in a frame.
     struct Due {
@@ -70,10 +99,15 @@ public:
         bool moves = false;                                  ///< else all rows are the identity
         std::array<bool, shared::kMostSpringSteps> before{}; ///< posed by what was played before the last call
         std::array<std::array<glm::vec4, 3>, shared::kMostSpringSteps> rows{};
-        std::array<glm::vec3, shared::kMostSpringSteps> down{}; ///< of the world, in the frame that the host places
+        bool blows = false; ///< else there is no wind in any of them
+        // Of the world, in the frame that the host places:
+        std::array<glm::vec3, shared::kMostSpringSteps> down{}; ///< if they are found
+        std::array<glm::vec3, shared::kMostSpringSteps> wind{}; ///< a velocity
     };
     /// It has run them from now on. Frames come with rising numbers.
     [[nodiscard]] Due take(uint32_t slot, uint64_t frame, double time, const SpringPlace& place, bool travels);
+    /// All that run steps in the frame have taken them.
+    void endFrame(uint64_t frame) { wind_.endFrame(frame); }
     /// What the frame's steps have done never happens.
     void cancelFrame(uint64_t frame);
 
@@ -98,8 +132,11 @@ private:
     [[nodiscard]] static SpringPlace placeAt(const Slot& own, double stepTime, double time, const SpringPlace& place,
                                              bool travels);
     /// Runs the steps that are due through where it has been.
-    static void move(Slot& own, Due& due, double time, const SpringPlace& place, bool travels);
+    void move(Slot& own, Due& due, double time, const SpringPlace& place, bool travels) const;
+    void findAir(Due& due, uint32_t step, const SpringPlace& place) const; ///< down and the wind
 
+    Wind wind_;
+    bool findsDown_ = false;
     std::vector<Slot> slots_;
     struct Undo {
         uint32_t slot = 0;

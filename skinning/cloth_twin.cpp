@@ -78,8 +78,9 @@ void ClothTwin::step(uint32_t cloth, std::span<const glm::vec4> goals, std::span
                          places_.data(),       colliders_.data(), sums_.data()};
     const auto all = code.clothTables(cloth);
     glm::vec4* const head = state.data() + all.state;
-    const auto own =
-        code.clothStep(now.move, code.stateRows(all.state + 3), now.down, now.settles, now.skips, now.jumps, head[6].x);
+    auto own = code.clothStep(now.move, code.stateRows(all.state + 3), now.settles, now.skips, now.jumps, head[6].x);
+    own.down = now.down;
+    own.wind = now.wind;
     code.runClothStep(all, own);
     head[3] = own.move.x;
     head[4] = own.move.y;

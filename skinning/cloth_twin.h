@@ -22,6 +22,7 @@ public:
     struct Step {
         shared::Affine move = shared::identity(); ///< how the model's frame of the step before lies in that of this one
         glm::vec3 down{0.0f, -1.0f, 0.0f};        ///< of the world, in the model's frame
+        glm::vec3 wind{0.0f};                     ///< the same
         bool settles = false, skips = false;      ///< it begins anew; behind steps that are left out
         bool jumps = false;                       ///< the instance has not moved there
     };

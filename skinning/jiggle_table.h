@@ -16,7 +16,7 @@ namespace supple::skinning {
 struct JiggleTable {
     std::vector<uint32_t> words;
     uint32_t vertexCount = 0; ///< that jiggle; 0: there are no words
-    uint32_t mostWork = 0;    ///< of a vertex: displacements of morph targets, and pairs of influences
+    uint32_t mostWork = 0;    ///< of a vertex: as deformWork()
 };
 [[nodiscard]] JiggleTable buildJiggleTable(const cage::Character& character);
 

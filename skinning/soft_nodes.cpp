@@ -2,6 +2,9 @@
 
 #include "shaders/shared/pose.h"
 #include "skinning/cloth_mesh.h"
+#include "skinning/delta_mush.h"
+
+#include <algorithm>
 
 namespace supple::skinning {
 
@@ -21,7 +24,8 @@ std::vector<uint32_t> deformWork(const cage::Character& character) {
         }
     }
     for (uint32_t v = 0; v < character.cage.vertexCount(); ++v) {
-        work[v] += (character.weights.starts[v + 1] - character.weights.starts[v] + 1) / 2;
+        const uint32_t pairs = (character.weights.starts[v + 1] - character.weights.starts[v] + 1) / 2;
+        work[v] += std::max(pairs, static_cast<uint32_t>(kMostMushInfluences));
     }
     return work;
 }

@@ -91,12 +91,12 @@ void SpringTwin::step(std::span<const shared::Transform> locals, const Step& now
     std::copy(locals.begin(), locals.end(), locals_.begin());
     twin::SpringCode code{table_->words.data(), push_,       locals_.data(), globals_.data(),
                           colliders_.data(),    state.data()};
-    code.runStep({now.move, now.place, now.settles});
+    code.runStep({now.move, now.place, now.wind, now.settles});
 }
 
 void SpringTwin::show(std::span<glm::vec4> state, float part, std::span<shared::Transform> locals) {
     twin::SpringCode code{table_->words.data(), push_, locals.data(), globals_.data(), colliders_.data(), state.data()};
-    code.forChains([&](shared::uint element) { code.showSpringNode(element, part); });
+    code.forChains([&](shared::uint element) { code.showSpringNode(element, part, 1.0f); });
 }
 
 std::vector<SpringTwin::Bone> SpringTwin::bones() {

@@ -28,6 +28,7 @@ public:
         shared::Affine move;  ///< how the model's frame of the step before lies in that of this step
         shared::Affine place; ///< where the instance stands
         bool settles = false; ///< tails at rest in the pose
+        glm::vec3 wind{0.0f}; ///< in the model's frame
     };
     /// A step, posed by `locals`.
     void step(std::span<const shared::Transform> locals, const Step& now, std::span<glm::vec4> state);

@@ -198,9 +198,10 @@ std::optional<Error> faultOfFlags(const SuppleGroupDesc& desc) {
         return Error{ErrorCode::argument, "SUPPLE_GROUP_SPRINGS does not go with SUPPLE_GROUP_UPDATE_RATES: springs "
                                           "swing by poses of every step"};
     }
-    if (has(SUPPLE_GROUP_SOFT) && (desc.instancesOf.id != 0 || desc.poseSource != SUPPLE_POSES_PLAYBACK)) {
+    if (has(SUPPLE_GROUP_SOFT) && (desc.instancesOf.id != 0 ||
+                                   (desc.poseSource != SUPPLE_POSES_SET && desc.poseSource != SUPPLE_POSES_PLAYBACK))) {
         return Error{ErrorCode::argument,
-                     "SUPPLE_GROUP_SOFT goes with instances of its own, and with SUPPLE_POSES_PLAYBACK"};
+                     "SUPPLE_GROUP_SOFT goes with instances of its own, and with SUPPLE_POSES_SET or _PLAYBACK"};
     }
     if (has(SUPPLE_GROUP_SOFT) && has(SUPPLE_GROUP_UPDATE_RATES)) {
         return Error{ErrorCode::argument, "SUPPLE_GROUP_SOFT does not go with SUPPLE_GROUP_UPDATE_RATES: vertices "

@@ -2,6 +2,9 @@
 #include "runtime/api/descriptions.h"
 #include "runtime/api/entry.h"
 
+#include <algorithm>
+#include <cmath>
+
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
@@ -43,6 +46,27 @@ SuppleResult suppleSetCapacity(SuppleContext handle, SuppleGroup group, uint32_t
             return refuse(context, ErrorCode::range, kName, "capacity is 0");
         }
         return notedIf(context, context.setCapacity(group.id, capacity), calls::SetCapacity{group, capacity});
+    });
+}
+
+SuppleResult suppleSetWind(SuppleContext handle, SuppleGroup group, const float* wind) {
+    constexpr const char* kHere = "suppleSetWind";
+    return withGroup(handle, group, kHere, [&](Context& context, Group& found) {
+        if (wind == nullptr) {
+            return refuse(context, ErrorCode::nullPointer, kHere, "wind is null");
+        }
+        if (!finite(wind, 3)) {
+            return refuse(context, found, ErrorCode::notFinite, kHere, "wind is not finite");
+        }
+        if (std::any_of(wind, wind + 3, [](float axis) { return std::abs(axis) > SUPPLE_MAX_WIND; })) {
+            return refuse(context, found, ErrorCode::range, kHere, "wind is beyond SUPPLE_MAX_WIND");
+        }
+        if (found.follows()) {
+            return refuse(context, found, ErrorCode::argument, kHere,
+                          "the group draws the instances of another one: set the wind of that one");
+        }
+        found.poses().setWind({wind[0], wind[1], wind[2]});
+        return noted(context, calls::SetWind{group, {wind[0], wind[1], wind[2]}});
     });
 }
 

@@ -83,6 +83,7 @@ private:
     void take(const calls::DestroyGroup& call);
     void take(const calls::SetCapacity& call) { put({{call.group.id}, kCallNumber<calls::SetCapacity>}, call); }
     void take(const calls::SetRate& call) { put({{call.group.id}, kCallNumber<calls::SetRate>}, call); }
+    void take(const calls::SetWind& call) { put({{call.group.id}, kCallNumber<calls::SetWind>}, call); }
     void take(const calls::CreatePointSet& call) {
         put({{call.desc.group.id}, kCallNumber<calls::CreatePointSet>, call.set.id}, call);
     }

@@ -359,6 +359,14 @@ struct DestroyPointSet {
         a(c.set, c.group);
     }
 };
+struct SetWind {
+    SuppleGroup group{};
+    float wind[3] = {};
+    template <class A, class T>
+    static void fields(A& a, T& c) {
+        a(c.group, c.wind);
+    }
+};
 
 } // namespace calls
 
@@ -372,7 +380,7 @@ using Call =
                  calls::SetPlayback, calls::SetTime, calls::SetMask, calls::SetModifiers, calls::SetModifierTarget,
                  calls::SetCamera, calls::SetDepthPyramid, calls::SetOrigin, calls::SetUploadBudget, calls::BeginFrame,
                  calls::CancelFrame, calls::RecordUploads, calls::RecordWarmUp, calls::Record, calls::RequestClip,
-                 calls::CreatePointSet, calls::DestroyPointSet>;
+                 calls::CreatePointSet, calls::DestroyPointSet, calls::SetWind>;
 
 /// The functions that make them, in the same order.
 inline constexpr std::array<const char*, std::variant_size_v<Call>> kCallNames = {
@@ -386,7 +394,7 @@ inline constexpr std::array<const char*, std::variant_size_v<Call>> kCallNames =
     "suppleSetModifierTarget", "suppleSetCamera",       "suppleSetDepthPyramid",  "suppleSetOrigin",
     "suppleSetUploadBudget",   "suppleBeginFrame",      "suppleCancelFrame",      "suppleRecordUploads",
     "suppleRecordWarmUp",      "suppleRecord",          "suppleRequestClip",      "suppleCreatePointSet",
-    "suppleDestroyPointSet"};
+    "suppleDestroyPointSet",   "suppleSetWind"};
 
 /// The place of a type among those of a variant.
 template <class T, class... Types>

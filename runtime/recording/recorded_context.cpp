@@ -68,7 +68,7 @@ Status Context::startRecording(const SuppleRecordingDesc& desc) {
         if (Playback* const playback = group.poses().playback()) {
             playback->forgetSizes();
         }
-        group.poses().settleSprings();
+        group.poses().settleSteps();
     });
     return success();
 }

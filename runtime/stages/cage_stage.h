@@ -113,9 +113,14 @@ struct CageStageRow {
     /// The cages that it leaves lie within what joint palettes bound (skinning/reach.h), and it keeps nothing from
     /// frame to frame. Of groups with other stages all instances are posed, in sight or not.
     bool keepsReach = false;
-    /// Its dispatches follow from the windows of instances alone. Groups with other stages record all that they
-    /// dispatch anew in every frame.
-    bool keepsTasks = false;
+    /// What its dispatches of a frame follow from. Those that stand come in the same order as long as the windows of
+    /// instances do not change, and those of no workgroups too (gpu::Dispatches::takesEmpty()).
+    enum class Tasks {
+        anew,    ///< who knows: groups with such a stage record all that they dispatch anew in every frame
+        written, ///< they stand, but for push constants and sizes
+        stand    ///< as they are
+    };
+    Tasks tasks = Tasks::anew;
 };
 
 } // namespace supple::runtime

@@ -68,7 +68,7 @@ Status CageStages::create(CageStageTable& table, gpu::Pipelines& pipelines, cons
         }
         stages_[row] = std::move(*stage);
         keepReach_ = keepReach_ && rows[row].keepsReach;
-        keepTasks_ = keepTasks_ && rows[row].keepsTasks;
+        tasks_ = std::min(tasks_, rows[row].tasks);
         addMember(*stages_[row]);
     }
     stride_ = desc.instances->cageStride();

@@ -57,8 +57,8 @@ public:
     }
     /// Whether instances may be left out by what is known of them before they are posed (CageStageRow::keepsReach).
     [[nodiscard]] bool keepReach() const { return keepReach_; }
-    /// Whether all dispatch the same as long as the windows of instances do not change (CageStageRow::keepsTasks).
-    [[nodiscard]] bool keepTasks() const { return keepTasks_; }
+    /// What the dispatches of all of them follow from.
+    [[nodiscard]] CageStageRow::Tasks tasks() const { return tasks_; }
 
     /// Begins a frame of the group at the host's time: finds who is new, then records the uploads of all stages.
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double time, const InstanceSlots& slots);
@@ -76,7 +76,8 @@ private:
 
     const gpu::Device* device_ = nullptr;
     std::vector<std::unique_ptr<CageStage>> stages_; ///< by row; null: the group does not have it
-    bool keepReach_ = true, keepTasks_ = true;
+    bool keepReach_ = true;
+    CageStageRow::Tasks tasks_ = CageStageRow::Tasks::stand;
     VkDeviceSize cageBytes_ = 0; ///< of all instances
     uint32_t stride_ = 0;
     gpu::PlannedBuffer cages_, between_; ///< `between_` if some stage writes apart

@@ -17,7 +17,8 @@ struct DeformStageKernels final : CageKernels {
 [[nodiscard]] Result<std::unique_ptr<CageStage>> makeDeform(const CageStageDesc& desc, CageKernels& kernels);
 [[nodiscard]] Status makeDeformPipelines(const PlannedStages& planned, const CageKernels& kernels);
 
-inline constexpr CageStageRow kDeformRow{SUPPLE_PASS_DEFORM,  false, wantsDeform, makeDeformKernels, makeDeform,
-                                         makeDeformPipelines, true,  true};
+inline constexpr CageStageRow kDeformRow{
+    SUPPLE_PASS_DEFORM,        false, wantsDeform, makeDeformKernels, makeDeform, makeDeformPipelines, true,
+    CageStageRow::Tasks::stand};
 
 } // namespace supple::runtime

@@ -9,7 +9,8 @@ namespace supple::runtime {
 [[nodiscard]] Result<std::unique_ptr<CageStage>> makeGather(const CageStageDesc& desc, CageKernels& kernels);
 [[nodiscard]] Status makeGatherPipelines(const PlannedStages& planned, const CageKernels& kernels);
 
-inline constexpr CageStageRow kGatherRow{SUPPLE_PASS_DEFORM,  true, wantsGather, makeDeformKernels, makeGather,
-                                         makeGatherPipelines, true, true};
+inline constexpr CageStageRow kGatherRow{
+    SUPPLE_PASS_DEFORM,        true, wantsGather, makeDeformKernels, makeGather, makeGatherPipelines, true,
+    CageStageRow::Tasks::stand};
 
 } // namespace supple::runtime

@@ -3,7 +3,6 @@
 #include "gpu/bound_sets.h"
 #include "gpu/tasks.h"
 #include "runtime/instance_state.h"
-#include "runtime/playback.h"
 #include "shaders/shared/deform.h"
 #include "skinning/soft_kernels.h"
 
@@ -63,7 +62,7 @@ public:
         uint64_t vertices = 0;
         frame.windows.forEach([&](uint32_t w) {
             const SoftPush push = pushOf(w);
-            if (push.instanceCount > 0) {
+            if (push.instanceCount > 0 || frame.dispatches.takesEmpty()) {
                 kernels_->record(frame.dispatches, sets_[w], instances_->skinning(), push);
                 vertices += uint64_t{push.count} * push.instanceCount;
             }
@@ -80,11 +79,9 @@ public:
     }
 
 private:
-    [[nodiscard]] const Playback& playback() const { return instances_->playback(); }
-
     [[nodiscard]] Status writeSet(uint32_t w, const CageBuffers& buffers) {
         const InstanceWindows& windows = buffers.listing->windows();
-        const Playback::StepPoses steps = playback().stepPoses();
+        const StepPoses steps = instances_->poses().stepPoses();
         const gpu::StaticBuffers& table = asset_->skin(instances_->skinning()).buffers;
         const gpu::StaticBuffers& soft = soft_->table;
         Status status = success();
@@ -120,8 +117,8 @@ private:
     }
 
     [[nodiscard]] SoftPush pushOf(uint32_t window) const {
-        const Playback::StepPoses steps = playback().stepPoses();
-        const PoseList::Window& listed = playback().listedPoses(window);
+        const StepPoses steps = instances_->poses().stepPoses();
+        const PoseList::Window& listed = *instances_->poses().listedSteps(window);
         const SkinTables& skin = asset_->skin(instances_->skinning());
         SoftPush push{};
         push.count = soft_->count;

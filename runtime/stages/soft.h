@@ -1,5 +1,5 @@
-// The stages between deform and the surfaces that move what is soft, in groups that play: vertices that jiggle
-// (docs/soft.md), and cloths (docs/cloth.md).
+// The stages between deform and the surfaces that move what is soft: vertices that jiggle (docs/soft.md), and cloths
+// (docs/cloth.md).
 #pragma once
 
 #include "runtime/stages/cage_stage.h"
@@ -18,9 +18,17 @@ namespace supple::runtime {
 [[nodiscard]] Result<std::unique_ptr<CageStage>> makeCloth(const CageStageDesc& desc, CageKernels& kernels);
 [[nodiscard]] Status makeClothPipelines(const PlannedStages& planned, const CageKernels& kernels);
 
-inline constexpr CageStageRow kJiggleRow{SUPPLE_PASS_DEFORM, false,      wantsJiggle,
-                                         makeJiggleKernels,  makeJiggle, makeJigglePipelines};
-inline constexpr CageStageRow kClothRow{SUPPLE_PASS_DEFORM, false,     wantsCloth,
-                                        makeClothKernels,   makeCloth, makeClothPipelines};
+inline constexpr CageStageRow kJiggleRow{.pass = SUPPLE_PASS_DEFORM,
+                                         .wants = wantsJiggle,
+                                         .makeKernels = makeJiggleKernels,
+                                         .make = makeJiggle,
+                                         .makePipelines = makeJigglePipelines,
+                                         .tasks = CageStageRow::Tasks::written};
+inline constexpr CageStageRow kClothRow{.pass = SUPPLE_PASS_DEFORM,
+                                        .wants = wantsCloth,
+                                        .makeKernels = makeClothKernels,
+                                        .make = makeCloth,
+                                        .makePipelines = makeClothPipelines,
+                                        .tasks = CageStageRow::Tasks::written};
 
 } // namespace supple::runtime

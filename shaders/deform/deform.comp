@@ -5,14 +5,7 @@
 #include "shaders/shared/deform.h"
 #include "shaders/shared/fitted_rotation.h"
 #include "shaders/shared/mapping.glsl"
-
-layout(constant_id = kMorphsConstant) const bool kMorphs = false;
-layout(constant_id = kSkinningConstant) const uint kSkinning = kLinearSkinning;
-#ifdef MUSH
-const bool kMush = true;
-#else
-const bool kMush = false;
-#endif
+#include "shaders/deform/kinds.glsl"
 
 BUFFER(writeonly, DeformedCage, kDeformedCageBinding, std430, vec4, deformedCage)
 

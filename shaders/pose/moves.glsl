@@ -18,8 +18,8 @@ Affine stepMove(Affine before, Affine way, uint moves, uint k, bool jumps) {
     return move;
 }
 
-// The world's down at a step, in the frame that the host places. `word`: where its move begins.
-vec3 downRow(uint word) {
-    uint w = word + 12u;
-    return uintBitsToFloat(uvec3(instanceWord(w), instanceWord(w + 1u), instanceWord(w + 2u)));
-}
+// Three words from one on.
+vec3 movedVector(uint w) { return uintBitsToFloat(uvec3(instanceWord(w), instanceWord(w + 1u), instanceWord(w + 2u))); }
+// At a step, in the frame that the host places: the world's down, and the wind. `word`: where its move begins.
+vec3 downRow(uint word) { return movedVector(word + 12u); }
+vec3 windRow(uint word) { return movedVector(word + 15u); }

@@ -100,6 +100,8 @@ void main() {
         precise Affine way = identity();
         if ((state(posedState()).y & kStateTravels) != 0u) way = scratchRows(locals + push.springScratch);
         now.move = stepMove(before, way, moves, k, jump == k + 1u);
+        now.wind = vec3(0.0);
+        if (moves != 0u) now.wind = worldVelocity(way, windRow(moves + kMoveWords * k));
         before = way;
         now.place = scratchRows(locals + kAffineElements * push.nodeCount);
         runStep(all, now, lane, lanes);
@@ -110,9 +112,9 @@ void main() {
         keepSpring(2u, before.z);
     }
     locals = instanceWord(words + 5u) * push.scratchStride;
-    float part = uintBitsToFloat(instanceWord(words + 3u));
+    float part = uintBitsToFloat(instanceWord(words + 3u)), fade = uintBitsToFloat(instanceWord(words + 6u));
     for (uint chain = lane; chain < all.chainCount; chain += lanes) {
         uvec4 nodes = table(all.chains + chain);
-        for (uint i = nodes.x; i < nodes.y; i += kSpringNodeElements) showSpringNode(i, part);
+        for (uint i = nodes.x; i < nodes.y; i += kSpringNodeElements) showSpringNode(i, part, fade);
     }
 }

@@ -55,6 +55,7 @@ uint colliderAt(uint reference) {
 struct SpringStep {
     Affine move;   // of the model's frame at the step before
     Affine place;  // where the instance stands
+    vec3 wind;     // in the model's frame
     bool settles;  // tails at rest in the pose
 };
 
@@ -79,6 +80,8 @@ vec4 swungRotation(uint element, uvec4 ids, Affine above, Transform own, SpringS
     SUPPLE_PRECISE vec3 last = through(move, vec3(spring(at)));
     SUPPLE_PRECISE vec3 before = through(move, vec3(spring(at + 1u)));
     SUPPLE_PRECISE vec3 pull = worldDirection(now.place, vec3(gravity)) * gravity.w;
+    SUPPLE_PRECISE vec3 carried = now.wind * (kSpringSeconds * (1.0f - ways.x)); // what drag takes, the air gives
+    pull = pull + carried;
     SUPPLE_PRECISE vec3 way = directionOr(swungTail(last, before, axis, tail.w, ways.x, pull) - head, axis);
     SUPPLE_PRECISE vec3 next = head + way * size;
     for (uint k = 0u; k < ids.w; ++k) {
@@ -125,13 +128,13 @@ void stepChain(uvec4 chain, SpringStep now) {
     }
 }
 
-// What is shown of a node of a chain, `part` of the way from the last step but one to the last.
-void showSpringNode(uint element, float part) {
+// What is shown of a node of a chain, `part` of the way from the last step but one to the last; of that, `fade`.
+void showSpringNode(uint element, float part, float fade) {
     uvec4 ids = table(element);
     for (bool swings = ids.y != kNoNode; swings; swings = false) {
         uint at = kSpringJoints + kSpringJointElements * ids.y;
         vec3 now = vec3(spring(at + 2u)), before = vec3(spring(at + 3u));
-        SUPPLE_PRECISE vec3 offset = before + (now - before) * part;
+        SUPPLE_PRECISE vec3 offset = (before + (now - before) * part) * fade;
         SUPPLE_PRECISE Transform own = nodeLocal(ids.x);
         SUPPLE_PRECISE vec3 rest = direction(directionThrough(composed(own), vec3(tableFloats(element + 1u))));
         SUPPLE_PRECISE vec3 way = directionOr(rest + offset, rest);

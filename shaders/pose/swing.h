@@ -40,11 +40,13 @@ SUPPLE_SHARED_FUNCTION Affine undone(Affine m) {
     return rowsOf(vec4(m.x.x, m.y.x, m.z.x, back.x), vec4(m.x.y, m.y.y, m.z.y, back.y),
                   vec4(m.x.z, m.y.z, m.z.z, back.z));
 }
-// A direction of the world, in the frame that m places.
-SUPPLE_SHARED_FUNCTION vec3 worldDirection(Affine m, vec3 v) {
+// A velocity of the world, in the frame that m, a rigid transform, places.
+SUPPLE_SHARED_FUNCTION vec3 worldVelocity(Affine m, vec3 v) {
     SUPPLE_PRECISE vec3 within = (vec3(m.x) * v.x + vec3(m.y) * v.y) + vec3(m.z) * v.z;
-    return directionOr(within, v);
+    return within;
 }
+// A direction of the world, in the frame that m places.
+SUPPLE_SHARED_FUNCTION vec3 worldDirection(Affine m, vec3 v) { return directionOr(worldVelocity(m, v), v); }
 
 // Where a tail swings to: `stiffness` and `pull` of a step, `kept` of the way that it came.
 SUPPLE_SHARED_FUNCTION vec3 swungTail(vec3 tail, vec3 before, vec3 axis, float stiffness, float kept, vec3 pull) {

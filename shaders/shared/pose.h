@@ -105,9 +105,10 @@
 // them; an entry for each step that is due, slot | kPosedBefore if it is posed as before the last call | kPosedTravels if root motion
 // travels; from `times` on the times of all these; then kSpringWords for each instance that runs steps or shows them: (slot, the first
 // of its steps, how many | kSpringSettles, with the steps that are left out | a jump | the low 4 bits of the first one's number, the part of the way from the step
-// before the last to the last, as a float, where its moves begin or 0, its entry among those that are shown); moves: for each step the
+// before the last to the last, as a float, where its moves begin or 0, its entry among those that are shown, how much is shown of
+// what steps do, as a float); moves: for each step the
 // three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled, and
-// the direction of the world's down in this step's; with cloths all steps have them.
+// the direction of the world's down in this step's, and the wind there; with cloths or wind all steps have them.
 //
 // Springs (vec4 elements, one run of `springStride` an instance): three rows of what it had travelled at the last step; then
 // kSpringJointElements for every joint that swings: its tail after the last step, and before that, in model space or in the frame of
@@ -210,11 +211,12 @@ SUPPLE_SHARED_CONST kUpdateSteps = 60u;      // of the grid in a second
 SUPPLE_SHARED_CONST kPosedBefore = 0x40000000u;
 SUPPLE_SHARED_CONST kPosedTravels = 0x80000000u;
 SUPPLE_SHARED_CONST kSpringSteps = 60u;    // of the grid in a second
+SUPPLE_SHARED_FLOAT kSpringSeconds = 0.016666668f; // between two of them
 SUPPLE_SHARED_CONST kMostSpringSteps = 8u; // in a frame
 // Rounds of an invocation's loops in a step: eight must not come near the 65,536 where some drivers end it.
 SUPPLE_SHARED_CONST kMostStepWork = 7000u;
-SUPPLE_SHARED_CONST kSpringWords = 6u;
-SUPPLE_SHARED_CONST kMoveWords = 15u;
+SUPPLE_SHARED_CONST kSpringWords = 7u;
+SUPPLE_SHARED_CONST kMoveWords = 18u;
 SUPPLE_SHARED_CONST kSpringSettles = 0x80000000u; // tails at rest in the pose
 SUPPLE_SHARED_CONST kSpringJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
 SUPPLE_SHARED_CONST kSpringNumberShift = 12u; // 4 bits: the last of the first step's number

@@ -28,7 +28,7 @@
 // Their state (vec4 elements, one run of `stateStride` an instance), for every cloth kClothVertices: three rows of what root motion
 // had travelled at the last step, three of the last step's move, (what is known as of jiggles; 0, 0, 0); then for every vertex:
 //   (place; x of `before`), (its speed or, if it hangs, where to; y of `before`), (offset from where joints have it; z of `before`),
-//   (speed of the model's frame there; 0), and if a volume is kept (by how much a vertex changes it; 0)
+//   (speed of the model's frame there, off the wind's; 0), and if a volume is kept (by how much a vertex changes it; 0)
 #ifndef SUPPLE_SHARED_SOFT_H
 #define SUPPLE_SHARED_SOFT_H
 

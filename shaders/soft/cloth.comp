@@ -7,14 +7,7 @@
 #include "shaders/shared/mapping.glsl"
 #include "shaders/pose/colliders.h"
 #include "shaders/shared/soft.h"
-
-layout(constant_id = kMorphsConstant) const bool kMorphs = false;
-layout(constant_id = kSkinningConstant) const uint kSkinning = kLinearSkinning;
-#ifdef MUSH
-const bool kMush = true;
-#else
-const bool kMush = false;
-#endif
+#include "shaders/deform/kinds.glsl"
 
 BUFFER(, DeformedCage, kDeformedCageBinding, std430, vec4, deformedCage)
 BUFFER(, Cloths, kSoftStateBinding, std430, vec4, cloths)
@@ -92,8 +85,9 @@ void runSteps(ClothTables all, uint words) {
         precise Affine way = identity();
         if ((instanceEntry(entry) & kPosedTravels) != 0u) way = scratchRows(entry * push.scratchStride + push.way);
         posed = (first + k) * push.stepStride;
-        vec3 down = worldDirection(way, downRow(moves + kMoveWords * k));
-        ClothStep now = clothStep(stepMove(before, way, moves, k, false), moveBefore, down, settles, skips, jump == k + 1u, known);
+        ClothStep now = clothStep(stepMove(before, way, moves, k, false), moveBefore, settles, skips, jump == k + 1u, known);
+        now.down = worldDirection(way, downRow(moves + kMoveWords * k));
+        now.wind = worldVelocity(way, windRow(moves + kMoveWords * k));
         runClothStep(all, now);
         before = way;
         moveBefore = now.move;
@@ -115,10 +109,10 @@ void main() {
     states = slot * push.stateStride;
     runSteps(all, words);
     precise Affine place = scratchRows(instanceWord(words + 5u) * push.scratchStride + push.place);
-    float part = uintBitsToFloat(instanceWord(words + 3u));
+    float part = uintBitsToFloat(instanceWord(words + 3u)), fade = uintBitsToFloat(instanceWord(words + 6u));
     for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) {
         if (i < all.hangingCount) continue;
-        precise vec3 moved = shownClothOffset(all, i, part, place);
+        precise vec3 moved = shownClothOffset(all, i, part, place) * fade;
         uint cage = slot * push.cageStride + clothTable(all.vertices + kClothVertexElements * i).x;
         vec4 shown = deformedCage.at[cage];
         precise vec3 p = vec3(shown) + moved;

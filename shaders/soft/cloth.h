@@ -10,6 +10,7 @@ struct ClothStep {
     Affine move;   // of the model's frame at the step before; as that one's, if the instance has not moved there
     Affine before; // the same of the step before
     vec3 down;     // of the world, in the model's frame
+    vec3 wind;     // the same
     bool begins;   // at rest
     bool goesOn;   // as it hung, behind steps that are left out
     bool jumps;    // the instance is elsewhere, or has another pose, and has not moved there
@@ -90,7 +91,7 @@ void beginVertex(ClothTables all, ClothStep now, uint vertex) {
     if (anew) before = settled;
     if (anew || now.goesOn || now.jumps) place = goal + before;
     if (anew || now.goesOn) speed = vec3(0.0f);
-    SUPPLE_PRECISE vec3 air = frameSpeed(now.move, place);
+    SUPPLE_PRECISE vec3 air = frameSpeed(now.move, place) - now.wind; // by how much the frame is faster
     if (!isNear(air, 1e12f)) air = vec3(0.0f);
     speed = speed + kickOf(now, place, speed);
     if (hangs) speed = goal;
@@ -256,8 +257,9 @@ void runClothStep(ClothTables all, ClothStep now) {
     meet();
 }
 
-// How the step lies to those before; what is known then. `move`: as stepMove() has it; `known`: before the step.
-ClothStep clothStep(Affine move, Affine before, vec3 down, bool settles, bool hasSkipped, bool jumps, float known) {
+// How the step lies to those before; what is known then. `move`: as stepMove() has it; `known`: before the step. Down and the
+// wind are left to the caller.
+ClothStep clothStep(Affine move, Affine before, bool settles, bool hasSkipped, bool jumps, float known) {
     SUPPLE_PRECISE ClothStep now;
     now.begins = known == 0.0f || (settles && !hasSkipped);
     now.goesOn = settles && !now.begins;
@@ -266,7 +268,6 @@ ClothStep clothStep(Affine move, Affine before, vec3 down, bool settles, bool ha
     now.before = before;
     now.move = jumps ? before : move;
     if (now.begins || now.goesOn || (jumps && known < 2.0f)) now.move = identity();
-    now.down = down;
     return now;
 }
 float knownAfter(ClothStep now, float known) {

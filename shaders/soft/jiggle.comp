@@ -8,14 +8,7 @@
 #include "shaders/shared/mapping.glsl"
 #include "shaders/shared/vectors.h"
 #include "shaders/soft/jiggle.h"
-
-layout(constant_id = kMorphsConstant) const bool kMorphs = false;
-layout(constant_id = kSkinningConstant) const uint kSkinning = kLinearSkinning;
-#ifdef MUSH
-const bool kMush = true;
-#else
-const bool kMush = false;
-#endif
+#include "shaders/deform/kinds.glsl"
 
 BUFFER(, DeformedCage, kDeformedCageBinding, std430, vec4, deformedCage)
 BUFFER(, Jiggles, kSoftStateBinding, std430, vec4, jiggles)
@@ -65,7 +58,8 @@ void main() {
         jiggling = jiggledStep(jiggling, goal, now, spring, uintBitsToFloat(own.z));
     }
     precise Affine place = scratchRows(instanceWord(words + 5u) * push.scratchStride + push.place);
-    precise vec3 moved = shownOffset(jiggling, uintBitsToFloat(instanceWord(words + 3u)), uintBitsToFloat(own.y), place);
+    precise float weight = uintBitsToFloat(own.y) * uintBitsToFloat(instanceWord(words + 6u));
+    precise vec3 moved = shownOffset(jiggling, uintBitsToFloat(instanceWord(words + 3u)), weight, place);
     if (!within) return;
     if (steps != 0u) {
         jiggles.at[state] = vec4(jiggling.offset, jiggling.before.x);

@@ -616,6 +616,8 @@ private:
             call("suppleSetCapacity", [&] { return suppleSetCapacity(handle(), groups_[i], 3); });
             createInstance(i);
         }
+        const float wind[3] = {1.0f, 0.0f, 2.0f};
+        call("suppleSetWind", [&] { return suppleSetWind(handle(), groups_[1], wind); });
         call("suppleSetRate", [&] { return suppleSetRate(handle(), groups_[1], 1); });
         SuppleAssetDesc desc{};
         desc.structSize = sizeof(desc);

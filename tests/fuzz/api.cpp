@@ -443,7 +443,10 @@ private:
             break;
         case 8:
             if (!groups_.empty()) {
-                check(suppleSetTime(context_, choose_.of(groups_).handle, choose_.below(8)));
+                const SuppleGroup group = choose_.of(groups_).handle;
+                check(suppleSetTime(context_, group, choose_.below(8)));
+                const float wind[3] = {static_cast<float>(choose_.below(8)), 0.0f, 1.0f};
+                check(suppleSetWind(context_, group, wind));
             }
             [[fallthrough]];
         default:

@@ -4,6 +4,9 @@
 #include "cage/repair.h"
 #include "cage/solved_driver.h"
 #include "cage/topology.h"
+#include "skinning/cloth_table.h"
+#include "skinning/cloth_twin.h"
+#include "skinning/jiggle_table.h"
 #include "tests/fuzz/target.h"
 
 #include <algorithm>
@@ -37,6 +40,47 @@ void checkCage(const cage::Character& character) {
     }
 }
 
+void checkPainted(const cage::Character& character, const std::vector<cage::PaintedWeight>& weights, size_t kinds) {
+    demand(weights.size() == (kinds > 0 ? character.cage.vertexCount() : 0), "weights that nobody painted");
+    for (const cage::PaintedWeight& weight : weights) {
+        demand(weight.index == cage::kNone || (weight.index < kinds && weight.weight > 0.0f && weight.weight <= 1.0f),
+               "a painted weight out of range");
+    }
+}
+
+/// What is soft has tables, or too much of something; cloths come to rest in numbers.
+void checkSoft(const cage::Character& character) {
+    checkPainted(character, character.weights.jiggles, character.jiggles.size());
+    checkPainted(character, character.weights.cloths, character.cloths.size());
+    for (const cage::Cloth& cloth : character.cloths) {
+        for (const uint32_t collider : cloth.colliders) {
+            demand(collider < character.springBones.colliders.size(), "a cloth without its collider");
+        }
+    }
+    (void)skinning::buildJiggleTable(character);
+    const Result<skinning::ClothTable> table = skinning::buildClothTable(character);
+    if (!table || table->clothCount == 0) {
+        return;
+    }
+    skinning::ClothTwin twin(*table);
+    std::vector<glm::vec4> state(table->stateElements, glm::vec4(0.0f)), goals;
+    for (const glm::vec3& position : character.cage.positions) {
+        goals.emplace_back(position, 1.0f);
+    }
+    for (uint32_t cloth = 0; cloth < table->clothCount; ++cloth) {
+        skinning::ClothTwin::Step now;
+        now.settles = true;
+        for (int step = 0; step < 3; ++step, now.settles = false) {
+            now.wind.x = 10.0f * static_cast<float>(step);
+            twin.step(cloth, goals, {}, now, state);
+        }
+        for (uint32_t i = 0; i < twin.vertexCount(cloth); ++i) {
+            const glm::vec3 place = twin.place(cloth, i, state);
+            demand(std::isfinite(place.x + place.y + place.z), "a cloth that leaves all numbers");
+        }
+    }
+}
+
 } // namespace
 } // namespace supple::fuzz
 
@@ -58,6 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const Result<cage::Character> character = cage::readGltf(fuzz::bytesOf(data, size), "fuzz.glb", "", options);
     if (character) {
         fuzz::checkCage(*character);
+        fuzz::checkSoft(*character);
     } else {
         fuzz::demand(character.error().message.starts_with("fuzz.glb: "), "a refusal without the name");
     }

@@ -1614,6 +1614,16 @@ void groups(Rows& r) {
         r.refuse("suppleSetRate", "rate " + std::to_string(rate), SUPPLE_MESSAGE_OUT_OF_RANGE,
                  [=](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, rate); });
     }
+    constexpr const char* kWind = "suppleSetWind";
+    static const float kBreeze[3] = {1.0f, 0.0f, -SUPPLE_MAX_WIND}, kNoWind[3] = {0.0f, NAN, 0.0f},
+                       kGale[3] = {0.0f, 0.0f, 1.1f * SUPPLE_MAX_WIND};
+    r.groups(kWind, [](World&, SuppleContext c, SuppleGroup g) { return suppleSetWind(c, g, kBreeze); });
+    r.refuse(kWind, "null", SUPPLE_MESSAGE_NULL_POINTER,
+             [](World& w) { return suppleSetWind(w.handle(), w.mine.main.group, nullptr); });
+    r.refuse(kWind, "NaN", SUPPLE_MESSAGE_NOT_FINITE,
+             [](World& w) { return suppleSetWind(w.handle(), w.mine.main.group, kNoWind); });
+    r.refuse(kWind, "too strong", SUPPLE_MESSAGE_OUT_OF_RANGE,
+             [](World& w) { return suppleSetWind(w.handle(), w.mine.main.group, kGale); });
     constexpr const char* kCapacity = "suppleSetCapacity";
     r.groups(kCapacity, [](World&, SuppleContext c, SuppleGroup g) { return suppleSetCapacity(c, g, 4); });
     r.refuse(kCapacity, "0", SUPPLE_MESSAGE_OUT_OF_RANGE,

@@ -1,6 +1,6 @@
 // Springs of groups whose poses the host sets: on the CPU, by the times of frames.
 #include "tests/support/allocation_count.h"
-#include "tests/support/played_group.h"
+#include "tests/support/poses_of_host.h"
 #include "tests/support/recordings.h"
 #include "tests/support/springs.h"
 #include "tests/support/worst.h"
@@ -22,73 +22,7 @@ constexpr uint32_t kClip = 2;
 
 SuppleGroupDesc setGroup(SuppleAsset asset, uint32_t capacity, uint32_t flags = SUPPLE_GROUP_SPRINGS,
                          SuppleSkinning skinning = SUPPLE_SKINNING_LINEAR) {
-    SuppleGroupDesc desc = playedGroup(asset, capacity, flags, skinning);
-    desc.poseSource = SUPPLE_POSES_SET;
-    return desc;
-}
-
-/// A group whose instances are posed by calls, in frames that have a time.
-class PosedGroup : public PlayedGroup {
-public:
-    using PlayedGroup::PlayedGroup;
-
-    [[nodiscard]] double within(double time) const { return std::fmod(time, character().clips[kClip].duration); }
-    void poseClip(uint32_t i, double time) const {
-        EXPECT_EQ(suppleSetClipPose(handle(), instances[i], kClip, time), SUPPLE_OK);
-    }
-    void frame(double time) {
-        crowd.context().setTime(time);
-        crowd.context().run(crowd.group());
-        poses = as<float>(crowd.read(crowd.output().info.poses));
-    }
-    /// Of the first instance, as the last frame has left it.
-    [[nodiscard]] std::vector<float> cage() const {
-        std::vector<float> floats = as<float>(crowd.read(crowd.output().info.deformedCage));
-        floats.resize(4 * size_t{character().cage.vertexCount()});
-        return floats;
-    }
-    /// The palette of the last frame, three rows a joint.
-    [[nodiscard]] std::vector<float> palette(uint32_t i) const {
-        const skinning::PoseLayout& layout = group().instances().poseLayout();
-        const auto begin = poses.begin() + static_cast<ptrdiff_t>(4 * size_t{instances[i].slot} * layout.stride);
-        return {begin, begin + static_cast<ptrdiff_t>(12 * size_t{layout.jointCount})};
-    }
-};
-
-glm::mat4 placedAt(double time) {
-    const auto t = static_cast<float>(time);
-    return glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(1.5f * t, 0.0f, 0.3f * std::sin(3.0f * t))), t,
-                       glm::vec3(0.0f, 1.0f, 0.0f));
-}
-
-/// What says the pose of an instance; the last from where a group without springs has the joints.
-enum class By { clip, layers, clipWithModifiers, matrices };
-
-void pose(PosedGroup& set, const PosedGroup& played, uint32_t i, double time, By by) {
-    if (by == By::matrices) {
-        std::vector<float> matrices;
-        for (uint32_t j = 0; j < set.character().skin.joints.size(); ++j) {
-            const glm::mat4 m(glm::inverse(glm::dmat4(placedAt(time))) * played.jointOf(i, j));
-            matrices.insert(matrices.end(), glm::value_ptr(m), glm::value_ptr(m) + 16);
-        }
-        EXPECT_EQ(suppleSetMatrixPose(set.handle(), set.instances[i], matrices.data(),
-                                      static_cast<uint32_t>(set.character().skin.joints.size())),
-                  SUPPLE_OK);
-        return;
-    }
-    if (by == By::layers) {
-        SuppleClipLayer layer{};
-        layer.clip = kClip;
-        layer.weight = 1.0f;
-        layer.time = set.within(time);
-        SupplePoseDesc desc{};
-        desc.structSize = sizeof desc;
-        desc.layers = &layer;
-        desc.layerCount = 1;
-        EXPECT_EQ(suppleSetPose(set.handle(), set.instances[i], &desc), SUPPLE_OK);
-        return;
-    }
-    set.poseClip(i, set.within(time));
+    return posedGroup(asset, capacity, flags, skinning);
 }
 
 /// What a second and a half of the clip shows of two groups that swing, and of one that does not: how far the first two
@@ -391,7 +325,7 @@ TEST_F(HostSprings, AllocateNothingInFrames) {
         poses.setClipPose(0, kClip, 0.005 * n);
         poses.setMatrixPose(1, matrices.data());
         poses.setTransform(2, glm::translate(glm::mat4(1.0f), glm::vec3(0.01f * static_cast<float>(n))));
-        poses.write(1000 + n, 0.013 * n, set.group().instances().slots(), bytes.data());
+        poses.write({1000 + n, 0.013 * n, false}, set.group().instances().slots(), bytes.data());
     }
     EXPECT_EQ(allocationsCounted(), before);
 }

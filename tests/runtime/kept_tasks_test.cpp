@@ -397,7 +397,7 @@ protected:
         return wrapped.watchedBytes;
     }
     void expectNeverStale(const SceneKind& kind, uint32_t framesInFlight, uint32_t frames);
-    void expectNeverStaleInSteps(const SceneKind& kind, uint32_t flag, bool recordsAll);
+    void expectNeverStaleInSteps(const SceneKind& kind, uint32_t flag);
     std::unique_ptr<host::Device> device;
 };
 
@@ -429,8 +429,8 @@ constexpr StepsDue kStepsDue[] = {{"the group begins", 100.1, false},     {"one 
                                   {"more than eight are due", 160.1, {}}, {"eight are due", 168.3, true}};
 
 /// Whatever is due, groups draw what they draw without shared dispatches. What swings by `flag` is seen beside a scene
-/// without it. `recordsAll`: nothing of any group is kept.
-void KeptTasks::expectNeverStaleInSteps(const SceneKind& kind, uint32_t flag, bool recordsAll) {
+/// without it.
+void KeptTasks::expectNeverStaleInSteps(const SceneKind& kind, uint32_t flag) {
     SceneKind without = kind;
     without.playFlags &= ~flag;
     KeptScene plain(*device, 0, 2, kind), still(*device, 0, 2, without);
@@ -450,7 +450,7 @@ void KeptTasks::expectNeverStaleInSteps(const SceneKind& kind, uint32_t flag, bo
             const uint64_t bytes = copiedIn(shared);
             all = all == 0 ? bytes : all;
             if (due.swings == true) { // by then there is something to keep in both rooms
-                EXPECT_EQ(bytes == all, recordsAll) << bytes << " of " << all;
+                EXPECT_LT(bytes, all);
                 EXPECT_GT(bytes, 0u);
             }
             ASSERT_TRUE(shared.drawn() == plain.drawn()) << "frame " << frame;
@@ -482,11 +482,11 @@ TEST_F(KeptTasks, AreNeverStaleWithDrivers) {
 }
 TEST_F(KeptTasks, AreNeverStaleWithSprings) {
     expectNeverStale(kKinds[5], 2, 3);
-    expectNeverStaleInSteps(kKinds[5], SUPPLE_GROUP_SPRINGS, false);
+    expectNeverStaleInSteps(kKinds[5], SUPPLE_GROUP_SPRINGS);
 }
 TEST_F(KeptTasks, AreNeverStaleWithWhatIsSoft) {
     expectNeverStale(kKinds[6], 2, 3);
-    expectNeverStaleInSteps(kKinds[6], SUPPLE_GROUP_SOFT, true); // its stage keeps no tasks
+    expectNeverStaleInSteps(kKinds[6], SUPPLE_GROUP_SOFT);
 }
 /// Where nothing changes, not a byte of tasks is copied: also where coefficients take turns.
 TEST_F(KeptTasks, AreNotCopiedIfNothingChanges) {

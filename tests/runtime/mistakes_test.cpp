@@ -396,6 +396,12 @@ void addShared(std::vector<Mistake>& rows) {
                         SuppleInstance instance{};
                         return suppleCreateInstance(s.context(), group, &instance);
                     }});
+    rows.push_back({"the wind of a group that follows another one", [](Scene& s) {
+                        SuppleGroup group{};
+                        s.good(follower(s, 0, group));
+                        const float wind[3] = {};
+                        return suppleSetWind(s.context(), group, wind);
+                    }});
     rows.push_back({"a group is recorded without the group that it follows", [](Scene& s) {
                         SuppleGroup group{};
                         s.good(follower(s, 0, group));

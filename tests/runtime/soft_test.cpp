@@ -24,7 +24,7 @@ class Soft : public CrowdContexts {};
 class SoftOfTheCpu {
 public:
     explicit SoftOfTheCpu(const SoftGroup& of)
-        : group_(of.group()), table_(deformTableOf(group_)), clock_(group_.instances().capacity()),
+        : group_(of.group()), table_(deformTableOf(group_)), clock_(group_.instances().capacity(), true),
           places_(group_.instances().capacity(), glm::mat4(1.0f)), travels_(group_.instances().capacity(), false) {
         const skinning::PoseLayout& layout = group_.instances().poseLayout();
         for (uint32_t i = 0; i < group_.instances().capacity(); ++i) {
@@ -36,6 +36,8 @@ public:
         places_[i] = place;
         clock_.place(i, time);
     }
+    void blow(const glm::vec3& wind, double time) { clock_.setWind(glm::dvec3(wind), time); }
+    void endFrame(uint64_t frame) { clock_.endFrame(frame); }
     void travel(uint32_t i) { travels_[i] = true; }
 
     /// How many words of an instance's cage are others than the CPU's at a time.
@@ -91,6 +93,11 @@ double playedBesideTheCpu(SoftGroup& soft, SoftGroup& stiff) {
             stiff.place(i, place);
             cpu.move(i, place, f == 0 ? 0.0 : 0.35 + 0.021 * (f - 1)); // before the time is set
         }
+        if (f % 6 == 2) { // each wind blows for a while
+            const glm::vec3 wind(0.3f * static_cast<float>(f), 0.5f, -4.0f);
+            soft.setWind(wind);
+            cpu.blow(wind, 0.35 + 0.021 * (f - 1));
+        }
         soft.frame(time);
         stiff.frame(time);
         for (uint32_t i = 0; i < count; ++i) {
@@ -100,6 +107,7 @@ double playedBesideTheCpu(SoftGroup& soft, SoftGroup& stiff) {
             EXPECT_TRUE(f < 4 || apart > 0.0) << "in the second step goals have a speed to differ from";
             moved = std::max(moved, apart);
         }
+        cpu.endFrame(f + 1);
     }
     return moved;
 }
@@ -253,7 +261,7 @@ TEST_F(Soft, AreRefusedWhereTheyCannotBe) {
     EXPECT_EQ(created(desc), SUPPLE_OK);
     desc.flags |= SUPPLE_GROUP_UPDATE_RATES;
     EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT);
-    for (const SupplePoseSource source : {SUPPLE_POSES_SET, SUPPLE_POSES_PALETTE_BUFFER, SUPPLE_POSES_CAGE_BUFFER}) {
+    for (const SupplePoseSource source : {SUPPLE_POSES_PALETTE_BUFFER, SUPPLE_POSES_CAGE_BUFFER}) {
         desc.flags = kSoft;
         desc.poseSource = source;
         EXPECT_EQ(created(desc), SUPPLE_ERROR_ARGUMENT) << source;

@@ -34,7 +34,7 @@ using Pose = std::vector<float>;
 class SwingingGroup : public PlayedGroup {
 public:
     SwingingGroup(CrowdContext& context, const SuppleGroupDesc& desc)
-        : PlayedGroup(context, desc), clock(desc.capacity), places(desc.capacity, glm::mat4(1.0f)),
+        : PlayedGroup(context, desc), clock(desc.capacity, false), places(desc.capacity, glm::mat4(1.0f)),
           travels(desc.capacity, false) {
         const skinning::PoseLayout& layout = group().instances().poseLayout();
         const uint32_t modifiers = (desc.flags & SUPPLE_GROUP_MODIFIERS) != 0 ? shared::kMaxModifiers : 0;
@@ -70,6 +70,7 @@ public:
                 const auto begins = due.settles     ? PlayedSprings::Begins::anew
                                     : due.jump == k ? PlayedSprings::Begins::withoutMove
                                                     : PlayedSprings::Begins::asItIs;
+                twins[i].setWind(due.wind[k]);
                 twins[i].step(state, playback.masks(), due.first + k, begins,
                               due.moves ? std::optional(due.rows[k]) : std::nullopt);
             }
@@ -80,6 +81,7 @@ public:
                 off += std::memcmp(&pose[k / 4][static_cast<int>(k % 4)], there + k, sizeof(float)) != 0 ? 1 : 0;
             }
         }
+        clock.endFrame(frame);
         return off;
     }
     /// What an instance showed in the last frame.
@@ -109,7 +111,7 @@ TEST(SpringClock, StepsAreOnAGridOfTimes) {
 }
 
 TEST(SpringClock, SaysWhatIsDue) {
-    runtime::SpringClock clock(1);
+    runtime::SpringClock clock(1, false);
     uint64_t frame = 0;
     const auto at = [&](double step) { return clock.take(0, ++frame, step / 60.0 + 1e-9, {}, false); };
     EXPECT_TRUE(at(100).settles);
@@ -131,7 +133,7 @@ TEST(SpringClock, SaysWhatIsDue) {
 }
 
 TEST(SpringClock, PlacesGoStraightFromFrameToFrame) {
-    runtime::SpringClock clock(1);
+    runtime::SpringClock clock(1, false);
     const auto placed = [](double x) { return runtime::SpringPlace{glm::dmat3(1.0), glm::dvec3(x, 0.0, 0.0)}; };
     (void)clock.take(0, 1, 10.0 / 60.0, placed(0.0), false);
     const runtime::SpringClock::Due due = clock.take(0, 2, 14.0 / 60.0, placed(4.0), false);
@@ -164,7 +166,7 @@ TEST(SpringClock, PlacesGoStraightFromFrameToFrame) {
 }
 
 TEST(SpringClock, CallsTakeEffectAtTheirTime) {
-    runtime::SpringClock clock(1);
+    runtime::SpringClock clock(1, false);
     (void)clock.take(0, 1, 10.0 / 60.0, {}, false);
     EXPECT_FALSE(clock.change(0, 10.5 / 60.0)) << "no step was due before";
     EXPECT_TRUE(clock.change(0, 12.5 / 60.0));
@@ -173,6 +175,55 @@ TEST(SpringClock, CallsTakeEffectAtTheirTime) {
     ASSERT_EQ(due.count, 4u);
     EXPECT_TRUE(due.before[0] && due.before[1] && !due.before[2] && !due.before[3]);
     EXPECT_FALSE(clock.hasBefore(0));
+}
+
+TEST(SpringClock, WindBlowsFromItsTimeOn) {
+    runtime::SpringClock clock(1, true);
+    const runtime::SpringPlace turned{
+        glm::dmat3(glm::rotate(glm::dmat4(1.0), 1.5707963267948966, glm::dvec3(0, 1, 0))) * 2.0, glm::dvec3(5.0)};
+    (void)clock.take(0, 1, 10.0 / 60.0, turned, false);
+    clock.endFrame(1);
+    clock.setWind({8.0, 2.0, 0.0}, 11.5 / 60.0);
+    const runtime::SpringClock::Due due = clock.take(0, 2, 13.0 / 60.0, turned, false);
+    clock.endFrame(2);
+    ASSERT_EQ(due.count, 3u);
+    EXPECT_TRUE(due.blows);
+    EXPECT_EQ(due.wind[0], glm::vec3(0.0f)) << "before the call";
+    EXPECT_LT(glm::length(due.wind[1] - glm::vec3(0.0f, 1.0f, 4.0f)), 1e-6f) << "in the model's frame and its units";
+    EXPECT_EQ(due.wind[2], due.wind[1]);
+    EXPECT_LT(glm::length(due.down[1] - glm::vec3(0.0f, -1.0f, 0.0f)), 1e-6f);
+    clock.setWind({0.0, 0.0, 0.0}, 14.5 / 60.0);
+    EXPECT_TRUE(clock.take(0, 3, 16.0 / 60.0, turned, false).blows);
+    clock.endFrame(3);
+    clock.cancelFrame(3);
+    const runtime::SpringClock::Due again = clock.take(0, 4, 16.0 / 60.0, turned, false);
+    EXPECT_TRUE(again.wind[0] == due.wind[1] && again.wind[1] == glm::vec3(0.0f))
+        << "as in the frame that was cancelled";
+    clock.endFrame(4);
+    EXPECT_FALSE(clock.take(0, 5, 18.0 / 60.0, turned, false).blows);
+    EXPECT_EQ(runtime::velocityWithin({glm::dmat3(0.0), {}}, {1.0, 0.0, 0.0}), glm::vec3(0.0f)) << "flat";
+    EXPECT_NEAR(runtime::velocityWithin({glm::dmat3(1e-20), {}}, {1.0, 0.0, 0.0}).x, 1e6f, 1.0f);
+}
+
+TEST_F(Springs, StandInTheWind) {
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset wren = wrenWithSprings(own);
+    SwingingGroup calm(own, playedGroup(wren, 1, kSprings)), windy(own, playedGroup(wren, 1, kSprings));
+    for (SwingingGroup* const stage : {&calm, &windy}) {
+        stage->play(0, 0, 0.0);
+    }
+    windy.setWind({0.0f, 0.0f, -8.0f});
+    for (uint32_t f = 0; f < 90; ++f) {
+        calm.swingOnly(f / 60.0);
+        windy.swingOnly(f / 60.0);
+    }
+    EXPECT_GT(farthestApart(calm.shown(0), windy.shown(0)), 0.05);
+    windy.setWind({0.0f, 0.0f, 0.0f});
+    for (uint32_t f = 90; f < 300; ++f) {
+        calm.swingOnly(f / 60.0);
+        windy.swingOnly(f / 60.0);
+    }
+    EXPECT_LT(farthestApart(calm.shown(0), windy.shown(0)), 1e-3) << "it hangs as before";
 }
 
 TEST_F(Springs, SwingWithTheWordsOfTheCpu) {
@@ -215,6 +266,10 @@ TEST_F(Springs, SwingWithTheWordsOfTheCpu) {
                         swinging.move(i, place);
                         still.move(i, place);
                         swinging.clock.place(i, f == 0 ? 0.0 : 0.35 + 0.021 * (f - 1)); // before the time is set
+                    }
+                    if (f % 6 == 2) { // each wind blows for a while
+                        swinging.setWind({0.3f * static_cast<float>(f), 0.5f, -4.0f});
+                        swinging.clock.setWind({0.3f * static_cast<float>(f), 0.5f, -4.0f}, 0.35 + 0.021 * (f - 1));
                     }
                     EXPECT_EQ(swinging.swing(time), 0u) << time;
                     still.swingOnly(time);

@@ -1,8 +1,10 @@
 // What cameras and motion vectors see of what swings and jiggles.
+#include "runtime/step_detail.h"
 #include "tests/support/played_group.h"
 #include "tests/support/springs.h"
 #include "tests/support/swinging_jiggles.h"
 #include "tests/support/test_view.h"
+#include "tests/support/worst.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -32,9 +34,9 @@ public:
         }
     }
     /// A frame; in the view the camera sees all, or none of them.
-    void run(double time, bool seesAll) {
+    void run(double time, bool seesAll, float distance = 5.0f) {
         if (view_) {
-            const glm::vec3 eye(0.0f, 1.0f, 5.0f), to(0.0f, 1.0f, seesAll ? 0.0f : 10.0f);
+            const glm::vec3 eye(0.0f, 1.0f, distance), to(0.0f, 1.0f, seesAll ? 0.0f : 2.0f * distance);
             view_->look(eye, to, glm::perspectiveRH_ZO(0.9f, 1.0f, 0.1f, 200.0f));
         }
         EXPECT_EQ(suppleSetTime(group_->handle(), group_->crowd.group(), time), SUPPLE_OK);
@@ -53,6 +55,11 @@ public:
         group_->crowd.context().beginFrame();
         group_->crowd.context().beginFrame();
         return view_->statistics().unposedInstanceCount;
+    }
+    /// Steps that it has posed.
+    [[nodiscard]] uint32_t steps() const {
+        const runtime::PoseList::Window& listed = group_->group().poses().playback()->listedPoses(0);
+        return listed.poses.count - listed.shown;
     }
     [[nodiscard]] bool valid() const { return group_->crowd.valid(); }
 
@@ -91,6 +98,64 @@ TEST_F(SwingingSeen, WhoIsCulledSettlesUnlessAllArePosed) {
                 }
             }
         }
+    }
+}
+
+TEST(StepDetail, FadesOutBelowASizeAndInAboveALargerOne) {
+    runtime::StepDetail detail(2);
+    detail.setSize(0, 10.0f, 5.0);
+    EXPECT_EQ(detail.fade(0), 0.0f) << "who begins small does not fade";
+    detail.setSize(0, 28.0f, 5.1);
+    EXPECT_EQ(detail.fade(0), 0.0f);
+    detail.setSize(0, 31.0f, 5.2);
+    EXPECT_NEAR(detail.fade(0), 0.4f, 1e-6f);
+    detail.setSize(0, 25.0f, 5.3);
+    EXPECT_NEAR(detail.fade(0), 0.8f, 1e-6f);
+    detail.setSize(0, 25.0f, 9.0);
+    EXPECT_EQ(detail.fade(0), 1.0f);
+    detail.setSize(0, 23.0f, 9.1);
+    EXPECT_NEAR(detail.fade(0), 0.6f, 1e-6f);
+    detail.setSize(0, 23.0f, 9.0);
+    EXPECT_EQ(detail.fade(0), 0.0f) << "time has gone back";
+    EXPECT_EQ(detail.fade(1), 1.0f) << "nobody knows its size";
+    detail.forget(0);
+    EXPECT_EQ(detail.fade(0), 1.0f);
+    EXPECT_EQ(runtime::StepDetail().fade(0), 1.0f);
+}
+
+TEST_F(SwingingSeen, WhoIsSmallRunsNoStepsUnlessAllDo) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    const SuppleAsset wren = swingingAndJigglingWren(own);
+    constexpr uint32_t kFlags = SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT;
+    for (const bool runsAll : {false, true}) {
+        SeenGroup seen(own, wren, kFlags | (runsAll ? SUPPLE_GROUP_POSE_UNSEEN : 0), true),
+            plain(own, wren, kFlags, false), still(own, wren, 0, false);
+        ASSERT_TRUE(seen.valid() && plain.valid() && still.valid());
+        const auto apart = [](const SeenGroup& a, const SeenGroup& b) {
+            return farthestApart(a.palette(0), b.palette(0)) + farthestApart(a.palette(1), b.palette(1));
+        };
+        for (uint32_t step = 0; step < 80; ++step) {
+            SCOPED_TRACE(std::to_string(step) + (runsAll ? ", all run" : ""));
+            const bool isFar = step > 20 && step < 50;
+            for (SeenGroup* const group : {&seen, &plain, &still}) {
+                group->run(step / 60.0, true, isFar ? 60.0f : 5.0f);
+            }
+            if (runsAll || step <= 20) {
+                EXPECT_EQ(apart(seen, plain), 0.0);
+                EXPECT_EQ(seen.steps(), kSeenCount);
+            } else if (step == 30) {
+                EXPECT_LT(apart(seen, still), 0.6 * apart(plain, still)) << "it fades";
+                EXPECT_GT(apart(seen, still), 0.0);
+            } else if (step > 36 && isFar) {
+                EXPECT_EQ(apart(seen, still), 0.0);
+                EXPECT_EQ(seen.steps(), 0u);
+            } else if (step == 55) {
+                EXPECT_GT(seen.steps(), 0u) << "it wakes";
+            }
+        }
+        EXPECT_GT(apart(seen, still), 0.0);
+        EXPECT_LT(apart(seen, plain), 0.05) << "they come together";
     }
 }
 

@@ -180,6 +180,42 @@ TEST(Cloths, KeepTheirLengths) {
     }
 }
 
+/// SUPPLE_CLOTH_STEPS=1000000 lets it run as long as it should once in a while: 4.6 hours of a cape.
+TEST(Cloths, StayWithinTheirLengthsForLong) {
+    const char* const asked = std::getenv("SUPPLE_CLOTH_STEPS");
+    const int64_t steps = asked != nullptr ? std::atoll(asked) : 1200;
+    ASSERT_GT(steps, 0);
+    Hung hung(test::cape());
+    const Extremes most = run(hung, {}, steps);
+    std::printf("%lld steps: longest edge %.3f of its rest, fastest %.2f m/s\n", static_cast<long long>(steps),
+                most.stretch, most.fastest);
+    EXPECT_LT(most.stretch, 1.15);
+    EXPECT_LT(most.fastest, 4.0);
+}
+
+TEST(Cloths, StreamInTheWindAsOnARunner) {
+    const vec3 speed(0.5f, 0.0f, 4.0f);
+    Hung still(test::cape()), runs(test::cape()), stands(test::cape()), runsWithIt(test::cape());
+    for (Hung* const moving : {&runs, &runsWithIt}) {
+        const vec3 step = -speed / 60.0f;
+        moving->now.move = rowsOf(vec4(1, 0, 0, step.x), vec4(0, 1, 0, step.y), vec4(0, 0, 1, step.z));
+    }
+    stands.now.wind = -speed;
+    runsWithIt.now.wind = speed;
+    for (int n = 0; n < 240; ++n) {
+        for (Hung* const own : {&still, &runs, &stands, &runsWithIt}) {
+            own->step();
+        }
+    }
+    double streams = 0.0;
+    for (uint32_t i = 0; i < still.count(); ++i) {
+        EXPECT_LT(glm::distance(runs.place(i), stands.place(i)), 2e-3f) << i;
+        EXPECT_LT(glm::distance(runsWithIt.place(i), still.place(i)), 2e-3f) << i;
+        test::raise(streams, static_cast<double>(still.place(i).z - stands.place(i).z));
+    }
+    EXPECT_GT(streams, 0.1) << "it is blown back";
+}
+
 TEST(Cloths, TethersHoldWhereEdgesGive) {
     for (const float tether : {0.0f, 1.02f}) {
         cage::Character cape = test::cape();

@@ -122,6 +122,9 @@ public:
     void place(uint32_t i, const glm::mat4& transform) const {
         EXPECT_EQ(suppleSetTransform(handle(), instances[i], glm::value_ptr(transform)), SUPPLE_OK);
     }
+    void setWind(const glm::vec3& wind) const {
+        EXPECT_EQ(suppleSetWind(handle(), crowd.group(), glm::value_ptr(wind)), SUPPLE_OK);
+    }
     /// A frame at a time; how many words of poses and cages are others than the CPU's.
     /// `first`: what the host records ahead of Supple.
     uint64_t run(double time, const std::function<void(VkCommandBuffer)>& first = {}) {

@@ -69,7 +69,8 @@ void PlayedSoft::run(std::span<const uint32_t> state, std::span<const float> mas
         const JiggleStep now{jumps ? identity() : move, due.settles, jumps, due.skipped};
         way_ = way;
         deformUnplaced(cage);
-        runCloths(cage, {move, worldDirection(way, due.down[k]), due.settles, due.skipped != 0, jumps});
+        runCloths(cage, {move, worldDirection(way, due.down[k]), worldVelocity(way, due.wind[k]), due.settles,
+                         due.skipped != 0, jumps});
         for (size_t i = 0; i < vertices_.size(); ++i) {
             const cage::Jiggle& own = character_->jiggles[character_->weights.jiggles[vertices_[i]].index];
             jiggling_[i] =

@@ -24,7 +24,8 @@ void PlayedSprings::step(std::span<const uint32_t> state, std::span<const float>
         way = twin_.place();
     }
     twin_.pose(state, masks, time);
-    skinning::SpringTwin::Step now{rowsOf(state_[0], state_[1], state_[2]), twin_.place(), begins == Begins::anew};
+    skinning::SpringTwin::Step now{rowsOf(state_[0], state_[1], state_[2]), twin_.place(), begins == Begins::anew,
+                                   worldVelocity(way, wind_)};
     now.move = moved ? combined(rowsOf((*moved)[0], (*moved)[1], (*moved)[2]), now.move) : now.move;
     now.move = begins == Begins::withoutMove ? identity() : combined(undone(way), now.move);
     springs_.step(twin_.locals(), now, state_);

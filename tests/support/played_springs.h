@@ -19,6 +19,8 @@ public:
     /// The table must outlive this.
     PlayedSprings(const skinning::ClipTable& table, const skinning::PoseLayout& layout, uint32_t transition);
 
+    /// In all steps from now on, in the frame that the host places.
+    void setWind(const glm::vec3& wind) { wind_ = wind; }
     enum class Begins { anew, withoutMove, asItIs };
     /// Runs a step, posed by what `state` plays at its time. `moved`: the rows of a move (shaders/shared/pose.h).
     void step(std::span<const uint32_t> state, std::span<const float> masks, int64_t step, Begins begins,
@@ -36,6 +38,7 @@ private:
     skinning::PoseTwin twin_;
     skinning::SpringTwin springs_;
     std::vector<glm::vec4> state_;
+    glm::vec3 wind_{0.0f};
     std::vector<shared::Transform> locals_;
 };
 

@@ -77,6 +77,9 @@ inline void callAt(const PlayedGroup& stage, uint32_t first, uint32_t sixth, dou
     if (sixth == first + 3) {
         stage.setMask(1, 0.25f);
     }
+    if (sixth == first || sixth == first + 2) {
+        stage.setWind({sixth == first ? 6.0f : -2.0f, 0.0f, 3.0f});
+    }
 }
 
 /// What instances showed, by sixths and instances.

@@ -279,15 +279,17 @@ std::string sceneTables(const Json& scene) {
 }
 
 std::string updateRateTable(const Json& rows) {
-    Table table(
-        {"poses", "characters", "posed a frame", "pose, ms", "/ without", "deform, ms", "/ without", "record, CPU us"});
+    Table table({"poses", "characters", "posed a frame", "pose, ms", "/ without", "deform, ms", "/ without",
+                 "record, CPU us", "device memory, KB an instance"});
     for (const Json& row : rows) {
         const auto interval = row["interval"].get<uint32_t>();
         const auto springs = row.value("springJoints", 0u), jiggling = row.value("jiggling", 0u);
         const auto cloth = row.value("cloth", 0u);
         const auto targets = row.value("morphTargets", 0u), drivers = row.value("drivers", 0u);
         const std::string what =
-            springs > 0     ? std::to_string(springs) + " joints swing"
+            springs > 0 && cloth > 0 ? std::to_string(springs) + " joints swing, " + std::to_string(jiggling) +
+                                           " vertices jiggle, " + std::to_string(cloth) + " are cloth"
+            : springs > 0   ? std::to_string(springs) + " joints swing"
             : jiggling > 0  ? std::to_string(jiggling) + " vertices jiggle"
             : cloth > 0     ? std::to_string(cloth) + " vertices are cloth"
             : drivers > 0   ? std::to_string(drivers) + " pose drivers of " + std::to_string(targets) + " morph targets"
@@ -297,7 +299,7 @@ std::string updateRateTable(const Json& rows) {
                             : "every " + std::to_string(interval) + " steps";
         table.add({what, row["characters"].dump(), number(row["posed"]), number(row["poseMs"]),
                    number(row["poseRatio"]), number(row["deformMs"]), number(row["deformRatio"]),
-                   number(row["recordUs"])});
+                   number(row["recordUs"]), number(row.value("instanceKb", Json()))});
     }
     return table.empty() ? "" : "## Update rates, springs, pose drivers\n\n" + table.text(1);
 }

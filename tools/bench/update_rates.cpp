@@ -17,9 +17,19 @@ namespace {
 constexpr uint32_t kWarmRateFrames = 9; ///< more than the longest interval
 constexpr double kRatedFrameSeconds = 1.0 / 60.0;
 
-/// What the character has besides: springs, morph targets, drivers of them, vertices that jiggle, a cloth.
-enum class Has : size_t { springs, targets, drivers, jiggles, cloth };
-constexpr size_t kCharacters = 5;
+/// What the character has besides: springs, morph targets, drivers of them, vertices that jiggle, a cloth; or springs
+/// and what is soft together.
+enum class Has : size_t { springs, targets, drivers, jiggles, cloth, allThatSwings };
+constexpr size_t kCharacters = 6;
+constexpr bool hasSprings(Has has) {
+    return has == Has::springs || has == Has::allThatSwings;
+}
+constexpr bool hasJiggles(Has has) {
+    return has == Has::jiggles || has == Has::allThatSwings;
+}
+constexpr bool hasCloth(Has has) {
+    return has == Has::cloth || has == Has::allThatSwings;
+}
 constexpr bool hasTargets(Has has) {
     return has == Has::targets || has == Has::drivers;
 }
@@ -38,7 +48,8 @@ constexpr struct RatedKind {
                    {0, false, Has::targets},
                    {0, false, Has::drivers},
                    {0, true, Has::jiggles},
-                   {0, true, Has::cloth}};
+                   {0, true, Has::cloth},
+                   {0, true, Has::allThatSwings}};
 
 /// Four chains of three joints that swing, and a collider.
 constexpr uint32_t kChains = 4, kChainJoints = 3;
@@ -100,12 +111,12 @@ void addDrivers(cage::Character& character) {
     }
 }
 
-/// So many vertices, side by side as the cage has them.
+/// So many vertices from one on, side by side as the cage has them.
 constexpr uint32_t kJiggling = 300;
-void addJiggles(cage::Character& character) {
+void addJiggles(cage::Character& character, uint32_t first) {
     character.jiggles.push_back({});
     character.weights.jiggles.resize(character.cage.vertexCount());
-    for (uint32_t v = 0; v < std::min(kJiggling, character.cage.vertexCount()); ++v) {
+    for (uint32_t v = first; v < std::min(first + kJiggling, character.cage.vertexCount()); ++v) {
         character.weights.jiggles[v] = {0, 1.0f};
     }
 }
@@ -131,9 +142,13 @@ void add(Has has, cage::Character& character) {
         addTargets(character);
         return addDrivers(character);
     case Has::jiggles:
-        return addJiggles(character);
+        return addJiggles(character, 0);
     case Has::cloth:
         return addCloth(character);
+    case Has::allThatSwings:
+        addSprings(character);
+        addCloth(character);
+        return addJiggles(character, kClothVertices);
     }
 }
 
@@ -166,7 +181,8 @@ public:
             if (kind.interval != 0) {
                 desc.flags = SUPPLE_GROUP_UPDATE_RATES;
             } else if (kind.swings) {
-                desc.flags = kind.has == Has::springs ? SUPPLE_GROUP_SPRINGS : SUPPLE_GROUP_SOFT;
+                desc.flags = (hasSprings(kind.has) ? SUPPLE_GROUP_SPRINGS : 0) |
+                             (hasJiggles(kind.has) || hasCloth(kind.has) ? SUPPLE_GROUP_SOFT : 0);
             }
             const Result<SuppleGroup> made = workbench_.createGroup(desc, kind.interval);
             if (!made) {
@@ -197,15 +213,16 @@ public:
             rows.push_back(
                 {{"characters", characters_},
                  {"interval", own.kind.interval},
-                 {"springJoints", own.kind.swings && own.kind.has == Has::springs ? kChains * kChainJoints : 0},
-                 {"jiggling", own.kind.has == Has::jiggles ? kJiggling : 0},
-                 {"cloth", own.kind.has == Has::cloth ? kClothVertices : 0},
+                 {"springJoints", own.kind.swings && hasSprings(own.kind.has) ? kChains * kChainJoints : 0},
+                 {"jiggling", hasJiggles(own.kind.has) ? kJiggling : 0},
+                 {"cloth", hasCloth(own.kind.has) ? kClothVertices : 0},
                  {"morphTargets", hasTargets(own.kind.has) ? kDrivers * kDriverTargets : 0},
                  {"drivers", own.kind.has == Has::drivers ? kDrivers : 0},
                  {"posed", static_cast<double>(own.posed) / joints / frames},
                  {"poseMs", tools::summarize(own.pose).median},
                  {"deformMs", tools::summarize(own.deform).median},
                  {"recordUs", tools::summarize(own.record).median},
+                 {"instanceKb", static_cast<double>(workbench_.deviceMemoryOf(own.group)) / 1000.0 / characters_},
                  {"poseRatio", ratio(own, &RatedGroup::pose)},
                  {"deformRatio", ratio(own, &RatedGroup::deform)}});
         }

@@ -267,6 +267,10 @@ const std::vector<SuppleTiming>& Workbench::timings() const {
     return inside_->context->timings.latest();
 }
 
+uint64_t Workbench::deviceMemoryOf(SuppleGroup group) const {
+    return inside_->group(group).memoryUse().deviceLocal;
+}
+
 uint32_t Workbench::verticesOf(SuppleView view) const {
     return inside_->context->views.find(view.id)->statistics().vertexCount;
 }

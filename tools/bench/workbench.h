@@ -76,6 +76,8 @@ public:
     [[nodiscard]] Status recordFrame(SuppleGroup group, VkCommandBuffer commands, uint32_t flags = 0);
     /// As suppleGetTimings has them when a frame begins.
     [[nodiscard]] const std::vector<SuppleTiming>& timings() const;
+    /// Bytes that are never mapped (SuppleMemoryUse.deviceLocal).
+    [[nodiscard]] uint64_t deviceMemoryOf(SuppleGroup group) const;
     /// What the newest completed frame wrote.
     [[nodiscard]] uint32_t verticesOf(SuppleView view) const;
     /// A frame of suppleRecordWarmUp alone.

@@ -188,6 +188,9 @@ public:
     Status operator()(const calls::SetTime& call) {
         return check(suppleSetTime(context_, r_.own(call.group), call.seconds));
     }
+    Status operator()(const calls::SetWind& call) {
+        return check(suppleSetWind(context_, r_.own(call.group), call.wind));
+    }
     Status operator()(const calls::SetMask& call) {
         return check(suppleSetMask(context_, r_.own(call.group), &call.mask));
     }

@@ -106,6 +106,7 @@ extern "C" {
 #define SUPPLE_MAX_RATE 64u                  /**< see SuppleGroupDesc.rate */
 #define SUPPLE_MAX_FRAMES_IN_FLIGHT 4u       /**< see suppleBeginFrame */
 #define SUPPLE_MAX_COORDINATE 1e9f           /**< see SuppleAssetDesc */
+#define SUPPLE_MAX_WIND 1e6f                 /**< units a second, along each axis: see suppleSetWind */
 #define SUPPLE_MAX_TIMINGS 4096u             /**< entries per frame. Further entries are not timed */
 
 /** A context borrows the host's device. Assets, groups and views belong to one context. */
@@ -1021,9 +1022,12 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_WINDOWS = 128,
     /** With ATTRIBUTES: also write a tangent per surface vertex, for normal maps. See SuppleVertexStreams.tangents. */
     SUPPLE_GROUP_TANGENTS = 256,
-    /** Groups of a view with SUPPLE_VIEW_CULL: pose and deform every visible instance. Without this flag, instances
-     * that surely are out of the camera's sight are left out before they are posed. Use it if you read poses or
-     * deformed cages of instances that the camera does not see. */
+    /** Groups of a view: what the camera sees does not matter for poses. In a view with SUPPLE_VIEW_CULL all visible
+     * instances are posed and deformed. Without this flag, those that surely are out of sight are left out before they
+     * are posed. Use it if you read poses or deformed cages of instances that the camera does not see. In any view,
+     * steps of SUPPLE_GROUP_SPRINGS and SUPPLE_GROUP_SOFT are run however small an instance is on the screen. Without
+     * this flag, what plays fades out below 24 pixels, and runs none (docs/soft.md). Use it if replays with other
+     * cameras must have the same bits. */
     SUPPLE_GROUP_POSE_UNSEEN = 512,
     /** With SUPPLE_POSES_SET or SUPPLE_POSES_PLAYBACK: instances may have modifiers (suppleSetModifiers). These cost 2
      * KiB of memory per instance, on the device if it plays. */
@@ -1052,13 +1056,18 @@ typedef enum SuppleGroupFlags {
      * time is SuppleRecordDesc.time. A step is posed straight between the pose of the frame before and that of its own,
      * so what it leaves depends on frames too. No box is known of such instances before they are posed. */
     SUPPLE_GROUP_SPRINGS = 8192,
-    /** With SUPPLE_POSES_PLAYBACK: vertices that the character's file paints jiggle about where joints have them, or
-     * hang as cloth (SUPPLE_deformers: docs/soft.md, docs/cloth.md), in steps of 1/60 s of the group's time, behind
-     * springs if the group has these. What a step leaves depends on the times at which calls are made, not on frames.
-     * Without such vertices it has no effect. They begin at rest where springs do, but over time that frames leave out
-     * they jiggle on, and cloth keeps its shape; suppleTeleport keeps how they move. All visible instances are posed,
-     * in sight or not. Device memory for an instance: 64 bytes for each such vertex, 80 if its volume is kept, 768, 112
-     * for each cloth, 9 times all node matrices, twice what is played, 8 poses. It does not go with UPDATE_RATES. */
+    /** With SUPPLE_POSES_PLAYBACK or SUPPLE_POSES_SET: vertices that the character's file paints jiggle about where
+     * joints have them, or hang as cloth (SUPPLE_deformers: docs/soft.md, docs/cloth.md), in steps of 1/60 s of the
+     * group's time, behind springs if the group has these. What a step leaves depends on the times at which calls are
+     * made, not on frames. Without such vertices it has no effect. They begin at rest where springs do, but over time
+     * that frames leave out they jiggle on, and cloth keeps its shape; suppleTeleport keeps how they move. All visible
+     * instances are posed, in sight or not. Device memory for an instance: 64 bytes for each such vertex, 80 if its
+     * volume is kept, 768, 112 for each cloth, 9 times all node matrices, twice what is played, 8 poses. It does not go
+     * with UPDATE_RATES.
+     *
+     * With SUPPLE_POSES_SET the time is SuppleRecordDesc.time, and a step is posed straight between the pose of the
+     * frame before and that of its own, so what it leaves depends on frames too. Of the memory above node matrices and
+     * what is played are left out; 8 poses more are staging memory, for each frame in flight. */
     SUPPLE_GROUP_SOFT = 16384,
     /** Groups without a view, in a context with SUPPLE_CONTEXT_RAY_TRACING: the host may build acceleration structures
      * from the surface vertices (suppleGetRayGeometry). Grids have 12 bytes of indices more for each triangle of an
@@ -1186,6 +1195,12 @@ SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstan
  * SUPPLE_GROUP_SPRINGS or SUPPLE_GROUP_SOFT, what swings or jiggles goes on as it did, as if the instance had not
  * moved: call this at the group's time of the jump. */
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
+/** Sets the wind about the instances of a group: float[3], a velocity in the world, in its units a second; 0 at first.
+ * It carries along what swings (SUPPLE_GROUP_SPRINGS: docs/springs.md) and cloth (SUPPLE_GROUP_SOFT: docs/cloth.md), by
+ * their drag in the air; elsewhere it has no effect. It blows from the group's time at the call on, in groups with
+ * SUPPLE_POSES_SET from that of their last suppleRecord on. A gust is one call a frame. Errors: not finite, or beyond
+ * SUPPLE_MAX_WIND; the group draws the instances of another one, whose wind it is. */
+SUPPLE_API SuppleResult suppleSetWind(SuppleContext context, SuppleGroup group, const float* wind);
 /** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
  * are written in the space that it maps to, relative to the origin (suppleSetOrigin). A mirroring transform (negative
  * determinant) reverses the winding and the normals: both then show the inside as the outside, as they do where joints

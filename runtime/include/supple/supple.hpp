@@ -456,6 +456,8 @@ public:
     }
     /// Sets the time by which its instances play (SUPPLE_POSES_PLAYBACK).
     [[nodiscard]] SuppleResult setTime(double seconds) const { return suppleSetTime(context_, handle_, seconds); }
+    /// Three floats: a velocity in the world (suppleSetWind).
+    [[nodiscard]] SuppleResult setWind(const float* wind) const { return suppleSetWind(context_, handle_, wind); }
     /// An empty span: the mask has no values of that kind.
     [[nodiscard]] SuppleResult setMask(uint32_t mask, Span<const float> joints, Span<const float> morphs = {}) const {
         SuppleMaskDesc desc = sized<SuppleMaskDesc>();
