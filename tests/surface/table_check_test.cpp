@@ -362,7 +362,7 @@ TEST(TableCheck, SectionsOfBlend) {
         {"constructions: a kernel that the scheme does not run there",
          [](Tables& t) { t.constructions[0].kernel.kernel = Kernel::subdivisionIsolateMeshInPool; }},
         {"stencils: vertices that do not begin the pool", [](Tables& t) { t.constructions[0].to = 1; }},
-        {"rows of stencils: 4294967295 and 2 more, of # elements",
+        {"rows of stencils: 4294967295 and 4 more, of # elements",
          [](Tables& t) { t.constructions[0].section.table = ~0u; }},
         {"charts: 4294967295 and 49 more, of # elements", [](Tables& t) { t.constructions[1].section.table = ~0u; }},
         {"rows of stencils: another number than of vertices", [](Tables& t) { --t.constructions[0].coefficients; }},

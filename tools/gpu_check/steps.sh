@@ -15,7 +15,7 @@ patience=$([ -n "$budget" ] && echo 5 || echo 20) # seconds for what only descri
 # What a step may take at most, in seconds, in the order of --prebuilt. The first nine always fit into six minutes, with what it takes
 # to end each of them: 299 s, 9 times the grace and a second, 20 for unpacking and describing the machine, and what is kept. The others
 # get what is left (tests/tools/gpu_check_test.sh adds them up).
-limits="device:20 lab_patches:30 lab_columns:30 kernels:50 crowd:45 scene:12 scene_grouped:12 patch_suites:45 suites:55
+limits="device:20 lab_patches:30 lab_columns:30 kernels:50 crowd:45 scene:20 scene_grouped:20 patch_suites:39 suites:45
     profile:40 view:30 levels:20 loop_levels:20 triangles:30 lab_cluster:20 lab_rows:15 lab_only:10"
 # seconds_of STEP: where nobody has set a budget, it may take six times as long.
 seconds_of() {
