@@ -7,14 +7,7 @@ namespace supple::surface {
 
 namespace {
 
-/// A row as the device reads it.
-struct StencilRow {
-    uint64_t list = 0;                 ///< the word at which its vertices begin
-    uint32_t number = 0, weights = 0;  ///< its own, and how many elements before the rows its weights lie
-    uint64_t pairs = 0, listWords = 0; ///< behind its first vertex; words that the list takes
-    uint32_t largest = 0;              ///< of its vertices
-};
-
+/// Rows as the device reads them.
 class StencilCheck {
 public:
     StencilCheck(TableCheck& check, const Construction& construction, uint64_t vertices)
@@ -23,70 +16,60 @@ public:
 
     bool run() {
         check_.begin("rows of stencils");
-        const uint64_t rows = construction_.section.count, first = uint64_t{4} * construction_.section.table;
-        if (!check_.words(first, (halves_ ? 2 : 3) * rows)) {
+        const uint64_t lanes = construction_.section.count, blocks = lanes / shared::kBlockLanes;
+        if (!check_.require(lanes % shared::kBlockLanes == 0, "a block without all of its lanes") ||
+            !check_.elements(construction_.section.table, blocks)) {
+            return false;
+        }
+        for (uint64_t block = 0; block < blocks; ++block) {
+            if (!checkBlock(4 * (construction_.section.table + block))) {
+                return false;
+            }
+        }
+        return check_.require(rows_ == construction_.coefficients, "another number than of vertices");
+    }
+
+private:
+    bool checkBlock(uint64_t word) {
+        const uint64_t first = check_.word(word), each = check_.word(word + 1), rows = check_.word(word + 2);
+        const uint64_t pairs = check_.word(word + 3);
+        if (!check_.require(rows > 0 && rows <= shared::kBlockLanes, "no rows, or more than a block has lanes") ||
+            !check_.require(pairs > 0 && each == (halves_ ? 1 : 2) * (1 + pairs), "rows of another length") ||
+            !check_.words(first, each * rows)) {
+            return false;
+        }
+        // Blocks have rows of their own. With this no file can make kernels read the rows of a large cage for every
+        // block.
+        words_ += each * rows;
+        rows_ += rows;
+        if (!check_.require(words_ <= check_.tables().words.size(), "their rows overlap")) {
             return false;
         }
         for (uint64_t row = 0; row < rows; ++row) {
-            if (!checkRow(first + (halves_ ? 2 : 3) * row)) {
+            if (!checkRow(first + row * each, pairs)) {
                 return false;
             }
         }
         return true;
     }
 
-private:
-    bool checkRow(uint64_t word) {
-        StencilRow row;
-        row.list = check_.word(word);
-        row.number = halves_ ? check_.word(word + 1) & 0xFFFFu : check_.word(word + 1);
-        row.weights = halves_ ? check_.word(word + 1) >> 16 : check_.word(word + 2);
-        if (!(halves_ ? readHalves(row) : readWords(row))) {
-            return false;
-        }
-        // Rows have lists of their own. With this no file can make kernels read one list for every row of a large cage.
-        listWords_ += row.listWords;
+    bool checkRow(uint64_t word, uint64_t pairs) {
+        const uint32_t* row = &check_.tables().words[word];
+        const uint32_t number = halves_ ? row[0] & 0xFFFFu : row[0], weights = halves_ ? row[0] >> 16 : row[1];
+        const uint32_t largest = halves_ ? largestHalf(row + 1, static_cast<uint32_t>(2 * pairs))
+                                         : *std::max_element(row + 2, row + 2 + 2 * pairs);
         const uint64_t table = construction_.section.table;
-        return check_.require(listWords_ <= check_.tables().words.size(), "their lists overlap") &&
-               check_.within(uint64_t{construction_.from} + row.largest, 1, vertices_, "vertices") &&
-               check_.require(row.weights <= table, "weights before the tables") &&
-               check_.elements(table - row.weights, (row.pairs + 1) / 2) &&
-               checkTarget(check_, uint64_t{construction_.to} + row.number);
-    }
-
-    bool readHalves(StencilRow& row) {
-        if (!check_.words(row.list, 1)) {
-            return false;
-        }
-        row.pairs = check_.word(row.list) & 0xFFFFu;
-        row.listWords = 1 + row.pairs;
-        if (!check_.words(row.list, row.listWords)) {
-            return false;
-        }
-        const uint32_t* list = &check_.tables().words[row.list];
-        row.largest = std::max(list[0] >> 16, largestHalf(list + 1, static_cast<uint32_t>(2 * row.pairs)));
-        return true;
-    }
-
-    bool readWords(StencilRow& row) {
-        if (!check_.words(row.list, 2)) {
-            return false;
-        }
-        row.pairs = check_.word(row.list);
-        row.listWords = 2 + 2 * row.pairs;
-        if (!check_.words(row.list, row.listWords)) {
-            return false;
-        }
-        const uint32_t* list = &check_.tables().words[row.list];
-        row.largest = *std::max_element(list + 1, list + row.listWords);
-        return true;
+        return check_.within(uint64_t{construction_.from} + largest, 1, vertices_, "vertices") &&
+               check_.require(weights <= table, "weights before the tables") &&
+               check_.elements(table - weights, (pairs + 1) / 2) &&
+               checkTarget(check_, uint64_t{construction_.to} + number);
     }
 
     TableCheck& check_;
     const Construction& construction_;
     uint64_t vertices_;
     bool halves_;
-    uint64_t listWords_ = 0;
+    uint64_t rows_ = 0, words_ = 0; ///< of all blocks
 };
 
 } // namespace

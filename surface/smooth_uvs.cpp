@@ -85,7 +85,7 @@ uint32_t uvElements(const Tables& tables, PatchClass patchClass) {
         return uvElements(patchClass);
     }
     if (domainOf(patchClass) != Domain::triangle) {
-        return shared::kQuadRecordElements;
+        return shared::kSharpQuadElements;
     }
     return (haveSharpUvs(tables) ? shared::kSharpTriangleElements : shared::kIrregularTriangleElements) -
            shared::kTriangleCornerElement;

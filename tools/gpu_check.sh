@@ -7,9 +7,9 @@
 #        FOLDER/tools/gpu_check.sh --prebuilt FOLDER [--out FOLDER] [..]
 #   --out         build/gpu-check; with --prebuilt: gpu-check
 #   --build-dir   build/release
-#   --steps       build, tests, bench, profile. There are also lab, crowd, kernels, scene, patches, triangles and suites. With
-#                 --prebuilt: lab, crowd, kernels, profile, scene, patches, triangles, suites. They run in this order, in whatever
-#                 order they are named
+#   --steps       build, tests, bench, profile. There are also lab, kernels, crowd, scene, suites, patches, triangles and lab_rest.
+#                 With --prebuilt: lab, kernels, crowd, scene, suites, profile, patches, triangles, lab_rest. They run in this
+#                 order, in whatever order they are named
 #   --quick       short forms: does it all work?
 #   --device      for the measurements; tests take the best device there is
 #   --allow-cpu   go on where the device is a CPU, with smaller crowds
@@ -17,15 +17,17 @@
 #   --tests       of ctest: only these, as ctest -R has them
 #   --suites      of the step suites: only these, as --gtest_filter has them
 #   --timeout     of every step, instead of its own
-#   --budget      of all steps together: a step gets what is left at most. With --prebuilt 360, else none
+#   --budget      of the whole call: a step gets what is left at most, and the script ends by then. With --prebuilt 360, else none
 #   --lab         where the lab of kernels has its sources: ../shared/gpu_lab. If there is none, its step is left out
 #   --pack        builds and collects in FOLDER what --prebuilt needs on another machine: no compiler, no cmake, no network
-# Steps: lab: kernels side by side, into lab.json. crowd: `supple bench` of the crowd alone, at rates 4, 8 and 16. kernels: its
-# --kernels, evaluation by classes of patches, with fan records beside coefficients. profile: a crowd by passes; with --prebuilt at
-# these rates. scene: 60 characters in one view, a group each, and the same 60 in two groups. patches:
-# Catmull-Clark's and Loop's in views. triangles: Loop's at rates. suites: device tests that take long, and those of these patches.
-# What it leaves: result.json, written anew after every step; lab.json; and what these were made of: a .json and a .txt of each
-# measurement, machine.txt, tests.xml, clocks.csv (where nvidia-smi is). With --prebuilt these are packed into parts.tar.gz.
+# Steps: lab: kernels side by side, a file lab_*.json for each kind; lab_rest: the other kinds. kernels: `supple bench --kernels`,
+# evaluation by classes of patches, with fan records beside coefficients. crowd: its crowd alone, at rates 4, 8 and 16. scene: 60
+# characters in one view, a group each, and the same 60 in two groups. suites: device tests of kernels that no GPU has run, and those
+# that take long. profile: a crowd by passes; with --prebuilt at these rates. patches: Catmull-Clark's and Loop's in views.
+# triangles: Loop's at rates.
+# What it leaves: result.json, written anew after every step; lab_*.json; and what these were made of: a .json and a .txt of each
+# measurement, machine.txt, tests.xml, clocks.csv (where nvidia-smi is). With --prebuilt these are packed into parts.tar.gz, anew
+# after every step. So a call that is ended from outside leaves what it had.
 # Exit code: 0 when every step succeeded; 1: the steps that failed are named at the end; 3: there is no device, or only a CPU.
 set -euo pipefail
 called_from=$PWD
@@ -68,10 +70,10 @@ done
 if [ -n "$pack" ]; then
     exec "$scripts/pack.sh" "$pack" "$build" "$lab_sources" "$build_first"
 fi
-known=" build tests bench lab crowd kernels profile scene patches triangles suites "
+known=" build tests bench lab kernels crowd scene suites profile patches triangles lab_rest "
 if [ -n "$prebuilt" ]; then
-    known=" lab crowd kernels profile scene patches triangles suites "
-    steps=${steps:-lab,crowd,kernels,profile,scene,patches,triangles,suites}
+    known=" lab kernels crowd scene suites profile patches triangles lab_rest "
+    steps=${steps:-lab,kernels,crowd,scene,suites,profile,patches,triangles,lab_rest}
     budget=${budget:-360}
     validated=(env -u SUPPLE_VALIDATION) # the layer is not carried
     out=${out:-$called_from/gpu-check}
@@ -89,13 +91,15 @@ mkdir -p "$out"
 out=$(cd "$out" && pwd)
 parts=$out # what result.json is made of
 # Of this call alone.
-rm -f "$out"/{result,device,bench,kernels,lab,triangles,profile,view,scene,scene_grouped,levels,loop_levels}.json "$out"/{steps,clocks}.csv \
+rm -f "$out"/{result,device,bench,kernels,triangles,profile,view,scene,scene_grouped,levels,loop_levels}.json "$out"/lab_*.json \
+    "$out"/{steps,clocks}.csv \
     "$out"/{tests.xml,suites.txt,patch_suites.txt,parts.tar.gz}
 jobs=$(nproc)
 failed=()
 
 # shellcheck source=tools/gpu_check/steps.sh
 . "$scripts/steps.sh"
+guard_budget
 if [ -n "$prebuilt" ]; then
     # shellcheck source=tools/gpu_check/prebuilt.sh
     . "$scripts/prebuilt.sh"
@@ -116,14 +120,14 @@ if wanted build; then
         'cmake --preset release -B "$0" -DSUPPLE_BUILD_TESTS=ON && cmake --build "$0" -j "$1"' "$build" "$jobs" || finish
     rm "$parts/build.txt" # says nothing when all went well
 fi
-if wanted lab && [ -z "$prebuilt" ] && [ -d "$lab_sources" ]; then
+if { wanted lab || wanted lab_rest; } && [ -z "$prebuilt" ] && [ -d "$lab_sources" ]; then
     run lab_build 600 "$scripts/build_lab.sh" "$lab_sources" "$build/gpu_lab" || true
 fi
 
 describe_machine >"$parts/machine.txt"
 cat "$parts/machine.txt"
 # One frame of a cage: is there a device, and which?
-run device 60 "$supple" profile samples/assets/pip_quads.glb --scheme cage --frames 1 "${device[@]}" --json "$parts/device.json" ||
+run device "$(seconds_of device)" "$supple" profile samples/assets/pip_quads.glb --scheme cage --frames 1 "${device[@]}" --json "$parts/device.json" ||
     finish 3
 is_cpu=no
 if grep -Eq '"cpuDevice": *true' "$parts/device.json"; then
@@ -141,7 +145,7 @@ instances=${instances:-1000}
 watch_clocks
 
 # The most valuable first: what comes late gets what is left of the budget.
-for step in tests lab bench crowd kernels profile scene patches triangles suites; do
+for step in tests lab bench kernels crowd scene suites profile patches triangles lab_rest; do
     if wanted "$step"; then
         "step_$step"
     fi

@@ -7,7 +7,9 @@
 #include "shaders/shared/chains.h"
 #include "shaders/shared/lod.h"
 
-const uint kRecordElements = kQuadRecordElements;
+layout(constant_id = kKindConstant) const uint kClass = kIrregularPatch;
+const bool kChains = kClass != kCreasedPatch, kSharp = kClass != kIrregularPatch;
+const uint kRecordElements = kSharp ? kSharpQuadElements : kQuadRecordElements;
 const uint kForm = kLodQuadForm;
 #define OWN_WIDE
 #ifdef LEVELS
@@ -17,9 +19,6 @@ const uint kForm = kLodQuadForm;
 #include "shaders/evaluate/pairs.glsl"
 #include "shaders/evaluate/basis.glsl"
 #include "shaders/surface/net.glsl"
-
-layout(constant_id = kKindConstant) const uint kClass = kIrregularPatch;
-const bool kChains = kClass != kCreasedPatch, kSharp = kClass != kIrregularPatch;
 
 vec3 poolPoint(const PatchPlace at, uint i) { return coefficient(at.base + i, at.isNew); }
 

@@ -10,11 +10,14 @@ struct IrregularQuad {
     uint flags, first; // what its net counts from
     uvec4 normals;
 };
+// `end`: the last element of its net.
+bool isSharpNet(uvec4 end) { return halfOf(end.x, kNetListSharp) != 0u; }
 IrregularQuad quadOf(uint record) {
     uvec4 spokes = tableElement(record + 1u), end = tableElement(record + kQuadNetElement + kNetListElements - 1u);
-    return IrregularQuad(tableElement(record), spokes, tableElement(record + kQuadNetListElement),
-                         uintBitsToFloat(tableElement(record + kQuadSharpnessElement)), end.w, end.w >> kNetFirstShift,
-                         normalsBefore(spokes, end.yz));
+    vec4 sharpness = vec4(0.0);
+    if (kSharp && isSharpNet(end)) sharpness = uintBitsToFloat(tableElement(record + kQuadSharpnessElement));
+    return IrregularQuad(tableElement(record), spokes, tableElement(record + kQuadNetListElement), sharpness, end.w,
+                         end.w >> kNetFirstShift, normalsBefore(spokes, end.yz));
 }
 // Point k of the quad's own net.
 vec3 ownPoint(const PatchPlace at, uint first, uint k) { return poolPoint(at, first + netListPoint(at.record + kQuadNetElement, k)); }

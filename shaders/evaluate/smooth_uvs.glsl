@@ -233,7 +233,7 @@ struct PatchPlace {
 vec3 poolPoint(const PatchPlace at, uint i) { return uvCoefficient(0u, i); }
 #include "shaders/catmull_clark/sample.glsl"
 
-const uint kSmoothElements = kQuadRecordElements;
+const uint kSmoothElements = kSharpQuadElements;
 struct SmoothPatch {
     uint record;
 };

@@ -144,11 +144,13 @@ vec2 chartLevels(uint record, uint base) {
 // points. The middles come from the points of level 1, where a sharp side counts alone.
 vec2 irregularLevels(uint record, uint base) {
     uvec4 corners = tableElement(record);
-    vec4 sharpness = uintBitsToFloat(tableElement(record + kQuadSharpnessElement));
     vec3 net[kNetPoints], x[9]; // x: row by row in v
     uvec4 netList[kNetListElements];
     [[unroll]] for (uint e = 0u; e < kNetListElements; ++e) netList[e] = tableElement(record + kQuadNetElement + e);
-    uint first = base + (netList[kNetListElements - 1u].w >> kNetFirstShift);
+    uvec4 end = netList[kNetListElements - 1u];
+    uint first = base + (end.w >> kNetFirstShift);
+    vec4 sharpness = vec4(0.0);
+    if (halfOf(end.x, kNetListSharp) != 0u) sharpness = uintBitsToFloat(tableElement(record + kQuadSharpnessElement));
     [[unroll]] for (uint k = 0u; k < kNetPoints; ++k) {
         net[k] = poolVector(first + halfOf(netList[k / 8u][k / 2u % 4u], k));
     }

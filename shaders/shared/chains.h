@@ -29,9 +29,10 @@
 //                     first spoke, second spoke)
 //   irregular quads   kQuadRecordElements: limit points of the corners; their spokes, as bicubic patches have them, or the pool
 //                     index of their chain (without one, of what lies behind their normals); net lists of their sector, 0 where
-//                     there is no chain; sharpness of the sides on level 1; their net, as in a net list: 5 x 5 points of level 1; from
-//                     kNetListNormals on, how far before their chains the normals of the corners lie, 0 where they have none; in
-//                     the last word flags and, from kNetFirstShift on, the pool index that the points count from
+//                     there is no chain; their net, as in a net list: 5 x 5 points of level 1; from kNetListNormals on, how far
+//                     before their chains the normals of the corners lie, 0 where they have none; in the last word flags and,
+//                     from kNetFirstShift on, the pool index that the points count from. If a side is a crease
+//                     (kNetListSharp), an element more: the sharpness of the sides on level 1
 #ifndef SUPPLE_SHARED_CHAINS_H
 #define SUPPLE_SHARED_CHAINS_H
 
@@ -40,10 +41,11 @@
 
 SUPPLE_SHARED_BEGIN
 
-SUPPLE_SHARED_CONST kQuadRecordElements = 8u;
+SUPPLE_SHARED_CONST kQuadRecordElements = 7u;
+SUPPLE_SHARED_CONST kSharpQuadElements = 8u;
 SUPPLE_SHARED_CONST kQuadNetListElement = 2u;
-SUPPLE_SHARED_CONST kQuadSharpnessElement = 3u;
-SUPPLE_SHARED_CONST kQuadNetElement = 4u;
+SUPPLE_SHARED_CONST kQuadNetElement = 3u;
+SUPPLE_SHARED_CONST kQuadSharpnessElement = 7u;
 SUPPLE_SHARED_CONST kNetSide = 5u;
 SUPPLE_SHARED_CONST kNetPoints = 25u;
 SUPPLE_SHARED_CONST kNetMiddle = 12u;
@@ -58,6 +60,7 @@ SUPPLE_SHARED_CONST kMakesChains = 3u;     // all levels, in workgroup memory: w
 SUPPLE_SHARED_CONST kBlockPoints = 256u;   // of a level, for all chains of a block
 
 SUPPLE_SHARED_CONST kNetListElements = 4u;
+SUPPLE_SHARED_CONST kNetListSharp = 25u; // number: 1 if the sharpness of the sides follows
 SUPPLE_SHARED_CONST kNetListNormals = 26u; // numbers
 SUPPLE_SHARED_CONST kNetListLastWord = 15u;
 SUPPLE_SHARED_CONST kNoSharpness = 0xFFFFFFFFu;

@@ -8,12 +8,12 @@
 // A class is all fragments of one kind: vertex or facet, sectors, open or closed, with or without sharpness.
 //
 // Tables
-//   stencil vertices   of a row: how many pairs follow, its first vertex, the others in pairs. A number has 16 bits if that is
-//                      enough for all (kHalfWords), else a word (kWholeWords)
-//   stencil weights    four an element; rows with the same weights share them
-//   stencil rows       by number of vertices: a word, where the row's vertices begin, and two numbers: its own, and how many
-//                      elements before the rows its weights lie. The exact schemes have stencils, too, and the blending surface
-//                      where its cage takes a step of subdivision first
+//   stencil weights    one a vertex of a row, four an element, the first being 0; rows with the same weights share them
+//   stencil blocks     of kBlockLanes lanes: (first word of its rows, words of a row, rows, pairs of vertices of a row). The rows of
+//                      a block have as many vertices
+//   stencil rows       its own number, how many elements before the blocks its weights lie, then its vertices in pairs. A number
+//                      has 16 bits if that is enough for all (kHalfWords), else a word (kWholeWords). The exact schemes have
+//                      stencils, too, and the blending surface where its cage takes a step of subdivision first
 //   pattern rows       one element a point, 16 bits a source: s0..s6 and rule | (spoke + 1) << 2
 //   neighbours         one element a point, 8 x 16 bits
 //   limit rows         two elements a sample: 8 neighbours x 16 bits; (point, spoke + 1, sector | turns from the first

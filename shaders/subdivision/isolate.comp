@@ -1,5 +1,6 @@
 // Isolation stage of the subdivision: the vertices of a global step, each a stencil over the vertices of the step before.
-// One invocation per vertex and instance. Sums are over differences to the first entry: the weights sum to 1.
+// One invocation per vertex and instance, in blocks of vertices with stencils of the same length. Sums are over differences to the
+// first entry: the weights sum to 1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define PUSH_CONSTANTS ConstructPush
@@ -10,36 +11,33 @@
 
 layout(constant_id = kKindConstant) const uint kNumbers = kHalfWords;
 
-uvec2 halvesOf(uint word) { return uvec2(halfOf(word, 0u), halfOf(word, 1u)); }
-// Two numbers of a list that begins with the word `list`.
-uvec2 pairAt(uint list, uint pair) {
-    if (kNumbers == kHalfWords) return halvesOf(tableWord(list + pair));
-    return uvec2(tableWord(list + 2u * pair), tableWord(list + 2u * pair + 1u));
-}
-// Where the vertices of a row begin, its number, and where its weights lie.
-uvec3 rowAt(uint row) {
+// Pair of numbers i of the row that begins with the word `row`.
+uvec2 pairAt(uint row, uint i) {
     if (kNumbers == kHalfWords) {
-        uvec4 two = tableElement(push.table + row / 2u);
-        return (row & 1u) == 0u ? uvec3(two.x, halvesOf(two.y)) : uvec3(two.z, halvesOf(two.w));
+        uint word = tableWord(row + i);
+        return uvec2(halfOf(word, 0u), halfOf(word, 1u));
     }
-    uint word = 4u * push.table + 3u * row;
-    return uvec3(tableWord(word), tableWord(word + 1u), tableWord(word + 2u));
+    return uvec2(tableWord(row + 2u * i), tableWord(row + 2u * i + 1u));
 }
 
 void main() {
-    uint item = itemOfLane(), instance = instanceOf(item), mesh = meshBase(instance) + push.from;
-    uvec3 row = rowAt(elementOf(item));
-    uvec2 begin = pairAt(row.x, 0u); // pairs, and the first vertex
-    vec3 first = meshPoint(mesh + begin.y);
-    precise vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < begin.x; ++i) {
-        uvec2 vertices = mesh + pairAt(row.x, i + 1u);
-        vec4 weights = uintBitsToFloat(tableElement(push.table - row.z + i / 2u));
-        vec2 w = (i & 1u) == 0u ? weights.xy : weights.zw;
+    uint item = itemOfLane(), instance = instanceOf(item), mesh = meshBase(instance) + push.from, lane = elementOf(item);
+    uvec4 block = tableElement(push.table + lane / kBlockLanes);
+    // Idle lanes repeat the last row.
+    uint row = block.x + block.y * min(lane % kBlockLanes, block.z - 1u);
+    uvec2 head = pairAt(row, 0u), vertices = mesh + pairAt(row, 1u);
+    uint weights = push.table - head.y;
+    vec4 w = uintBitsToFloat(tableElement(weights));
+    vec3 first = meshPoint(vertices.x);
+    precise vec3 second = meshPoint(vertices.y) - first, sum = w.y * second;
+    for (uint i = 1u; i < block.w; ++i) {
+        vertices = mesh + pairAt(row, i + 1u);
+        if ((i & 1u) == 0u) w = uintBitsToFloat(tableElement(weights + i / 2u));
+        vec2 pair = (i & 1u) == 0u ? w.xy : w.zw;
         precise vec3 a = meshPoint(vertices.x) - first, b = meshPoint(vertices.y) - first;
-        sum = sum + w.x * a;
-        sum = sum + w.y * b;
+        sum = sum + pair.x * a;
+        sum = sum + pair.y * b;
     }
     precise vec3 p = first + sum;
-    storePool(poolBase(instance) + push.to + row.y, p);
+    storePool(poolBase(instance) + push.to + head.x, p);
 }

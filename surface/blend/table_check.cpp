@@ -41,7 +41,7 @@ private:
         if (!refined) {
             return true;
         }
-        vertices_ = all.front().section.count;
+        vertices_ = all.front().coefficients;
         check_.begin("stencils");
         return check_.require(all.front().to == 0, "vertices that do not begin the pool") &&
                check_.pool(0, vertices_) && checkStencils(check_, all.front(), check_.source().vertices);

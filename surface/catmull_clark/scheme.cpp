@@ -298,10 +298,13 @@ private:
             flags |= isCubic(patch, i) ? 1u << (shared::kCubicSide + i) : 0u;
         }
         writer_.put(netLists);
-        writer_.put(sharpness);
         const uint32_t first = firstOfNet(net);
         flags |= (firstLevelOne_ + first) << shared::kNetFirstShift;
-        writeNetList(net, first, shared::kNetListElements, {shared::kNetListNormals, normals, flags}, writer_);
+        const bool sharp = patch.info.patchClass != PatchClass::irregular;
+        writeNetList(net, first, shared::kNetListElements, {shared::kNetListNormals, normals, flags, sharp}, writer_);
+        if (sharp) {
+            writer_.put(sharpness);
+        }
     }
 
     const cage::Cage& host_;

@@ -39,7 +39,7 @@ bool LeafCheck::takePatches() {
 bool LeafCheck::takeQuad(uint64_t element, PatchClass patchClass) {
     const uint32_t* record = &check_.tables().words[4 * element];
     const uint32_t* net = record + 4 * shared::kQuadNetElement;
-    if (!checkQuadNet(net, coefficients())) {
+    if (!checkQuadNet(net, coefficients()) || !checkSharpness(net, patchClass != PatchClass::irregular)) {
         return false;
     }
     std::array<bool, 4> plain{};
@@ -98,6 +98,12 @@ bool LeafCheck::checkQuadNet(const uint32_t* net, const Points& points) {
     return point(uint64_t{net[shared::kNetListLastWord] >> shared::kNetFirstShift} +
                      largestHalf(net, shared::kNetPoints),
                  points);
+}
+
+/// Kernels look for it behind the net if that says so.
+bool LeafCheck::checkSharpness(const uint32_t* net, bool has) {
+    return check_.require(halfAt(net, shared::kNetListSharp) == (has ? 1u : 0u),
+                          "the sharpness of sides that its class has not, or none");
 }
 
 bool LeafCheck::checkTriangleNet(const uint32_t* net, const Points& points) {
@@ -166,7 +172,7 @@ bool LeafCheck::takeSmoothUvs() {
 bool LeafCheck::takeUvQuad(uint64_t element) {
     const uint32_t* record = &check_.tables().words[4 * element];
     const uint32_t* net = record + 4 * shared::kQuadNetElement;
-    if (!checkQuadNet(net, pairs()) ||
+    if (!checkQuadNet(net, pairs()) || !checkSharpness(net, true) ||
         !check_.require((net[shared::kNetListLastWord] & kQuadFlags) == 0, "a cubic side") ||
         !point(*std::max_element(record, record + 4), pairs())) {
         return false;

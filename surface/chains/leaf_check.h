@@ -37,6 +37,7 @@ private:
     [[nodiscard]] bool takeUvQuad(uint64_t element);
     [[nodiscard]] bool takeUvTriangle(uint64_t element);
     [[nodiscard]] bool checkQuadNet(const uint32_t* net, const Points& points);
+    [[nodiscard]] bool checkSharpness(const uint32_t* net, bool has);
     [[nodiscard]] bool checkTriangleNet(const uint32_t* net, const Points& points);
     [[nodiscard]] bool checkCorner(const Corner& corner, const Points& points);
     [[nodiscard]] bool checkUvCorner(const Corner& corner, const Points& points);

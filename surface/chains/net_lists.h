@@ -12,7 +12,7 @@
 
 namespace supple::surface::chains {
 
-static_assert(shared::kNetPoints <= shared::kNetListNormals);
+static_assert(shared::kNetPoints <= shared::kNetListSharp && shared::kNetListSharp < shared::kNetListNormals);
 static_assert(shared::kTriangleNetPoints <= shared::kTriangleNetListNormals);
 // Four normals, then the last word.
 static_assert(shared::kNetListNormals + 4 == 2 * shared::kNetListLastWord);
@@ -37,6 +37,7 @@ struct NetListEnd {
     uint32_t at = 0;
     std::array<uint32_t, 4> numbers{};
     uint32_t last = 0;
+    bool sharp = false; ///< of a quad: the sharpness of its sides follows
 };
 /// Writes the points of a net as a net list of so many elements.
 inline void writeNetList(std::span<const uint32_t> points, uint32_t first, uint32_t elements, const NetListEnd& end,
@@ -44,6 +45,9 @@ inline void writeNetList(std::span<const uint32_t> points, uint32_t first, uint3
     std::vector<uint32_t> netList(size_t{8} * elements, 0);
     std::copy(end.numbers.begin(), end.numbers.end(), netList.begin() + end.at);
     std::transform(points.begin(), points.end(), netList.begin(), [&](uint32_t point) { return point - first; });
+    if (end.sharp) {
+        netList[shared::kNetListSharp] = 1;
+    }
     netList[netList.size() - 2] = end.last & 0xFFFFu;
     netList.back() = end.last >> 16;
     writer.putHalves(netList);

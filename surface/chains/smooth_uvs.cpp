@@ -82,12 +82,13 @@ public:
             chains[i] = corner.chain;
             netLists[i] = corner.netLists;
         }
-        for (const auto& words : {limits, chains, netLists, sharpness}) {
+        for (const auto& words : {limits, chains, netLists}) {
             writer.put(words);
         }
         const uint32_t first = firstOfNet(numbersOf(p));
         const uint32_t last = (points_.firstPoint() + first) << shared::kNetFirstShift; // every side is two halves
-        writeNetList(numbersOf(p), first, shared::kNetListElements, {shared::kNetListNormals, {}, last}, writer);
+        writeNetList(numbersOf(p), first, shared::kNetListElements, {shared::kNetListNormals, {}, last, true}, writer);
+        writer.put(sharpness);
     }
 
 private:

@@ -15,7 +15,7 @@ struct UvDemand {
 };
 
 /// Writes the points of all UV sets and a record a patch and set, if the recipe asks for smooth texture coordinates and
-/// the cage has any. Quads have kQuadRecordElements, triangles what an irregular one has from its corners on.
+/// the cage has any. Quads have kSharpQuadElements, triangles what an irregular one has from its corners on.
 [[nodiscard]] Status writeUvLeaves(const Recipe& recipe, const cage::Cage& cage, const UvDemand& demand,
                                    const std::vector<DraftPatch>& patches, FanTables& fans, TableWriter& writer,
                                    Tables& tables);

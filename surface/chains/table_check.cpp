@@ -84,7 +84,7 @@ private:
                             "no step makes the vertices in the pool")) {
             return false;
         }
-        vertices_ = first[0].section.count;
+        vertices_ = first[0].coefficients;
         return check_.pool(tables_.meshVertices, vertices_);
     }
 

@@ -117,10 +117,10 @@ private:
         check_.begin("stencils");
         uint64_t vertices = check_.source().vertices;
         for (const Construction& step : steps) {
-            if (!check_.pool(step.to, step.section.count) || !checkStencils(check_, step, vertices)) {
+            if (!check_.pool(step.to, step.coefficients) || !checkStencils(check_, step, vertices)) {
                 return false;
             }
-            vertices = uint64_t{step.to} + step.section.count;
+            vertices = uint64_t{step.to} + step.coefficients;
         }
         return true;
     }

@@ -25,24 +25,26 @@ void WordList::addHalf(const char* what, uint64_t word, uint32_t k, uint64_t lim
 void addStencilWords(WordList& list, const Construction& c, uint64_t vertices) {
     const bool halves = c.kernel.kind == kHalfWords;
     const uint64_t words = list.tables().words.size(), pool = list.tables().poolStride;
-    for (uint64_t row = 0; row < c.section.count; ++row) {
-        const uint64_t word = uint64_t{4} * c.section.table + (halves ? 2 : 3) * row, begin = list.at(word);
-        list.addIndex("list of a stencil", word, words);
-        if (halves) {
-            list.addHalf("number of a stencil", word + 1, 0, pool - c.to);
-            list.addHalf("weights of a stencil", word + 1, 1, c.section.table + uint64_t{1});
-            list.addHalf("pairs of a stencil", begin, 0, words - begin);
-        } else {
-            list.addIndex("number of a stencil", word + 1, pool - c.to);
-            list.addIndex("weights of a stencil", word + 2, c.section.table + uint64_t{1});
-            list.addIndex("pairs of a stencil", begin, words - begin);
-        }
-        const uint32_t pairs = halves ? list.half(begin, 0) : list.at(begin);
-        for (uint32_t k = 1; k < 2 * pairs + 2; ++k) {
+    for (uint64_t block = 0; block < c.section.count / kBlockLanes; ++block) {
+        const uint64_t word = 4 * (c.section.table + block), each = list.at(word + 1), pairs = list.at(word + 3);
+        list.addIndex("rows of a block of stencils", word, words);
+        list.addIndex("words of a stencil", word + 1, each + 1);
+        list.addIndex("number of stencils of a block", word + 2, kBlockLanes + 1);
+        list.addIndex("pairs of a stencil", word + 3, pairs + 1);
+        for (uint64_t row = list.at(word), n = 0; n < list.at(word + 2); ++n, row += each) {
             if (halves) {
-                list.addHalf("vertex of a stencil", begin, k, vertices - c.from);
+                list.addHalf("number of a stencil", row, 0, pool - c.to);
+                list.addHalf("weights of a stencil", row, 1, c.section.table + uint64_t{1});
             } else {
-                list.addIndex("vertex of a stencil", begin + k, vertices - c.from);
+                list.addIndex("number of a stencil", row, pool - c.to);
+                list.addIndex("weights of a stencil", row + 1, c.section.table + uint64_t{1});
+            }
+            for (uint32_t k = 2; k < 2 * pairs + 2; ++k) {
+                if (halves) {
+                    list.addHalf("vertex of a stencil", row, k, vertices - c.from);
+                } else {
+                    list.addIndex("vertex of a stencil", row + k, vertices - c.from);
+                }
             }
         }
     }
@@ -58,7 +60,7 @@ public:
     void run() {
         if (tables_.constructions.size() > 1) {
             addStencilWords(list_, tables_.constructions.front(), vertices_);
-            vertices_ = tables_.constructions.front().section.count;
+            vertices_ = tables_.constructions.front().coefficients;
         }
         const Section& charts = tables_.constructions.back().section;
         for (uint64_t chart = 0; chart < charts.count; ++chart) {

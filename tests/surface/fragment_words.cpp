@@ -20,7 +20,7 @@ public:
     void run() {
         for (const Construction& step : tables_.constructions) {
             addStencilWords(list_, step, vertices_);
-            vertices_ = step.to + uint64_t{step.section.count};
+            vertices_ = step.to + uint64_t{step.coefficients};
         }
         for (const Fragments::Class& own : all_.classes) {
             readClass(4 * uint64_t{list_.at(uint64_t{4} * own.fragments.table)});

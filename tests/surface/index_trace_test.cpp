@@ -50,22 +50,20 @@ private:
 /// shaders/subdivision/isolate.comp.
 void traceStencils(Memory& at, const Construction& c) {
     const bool inPool = c.kernel.kernel == Kernel::subdivisionIsolateMeshInPool, halves = c.kernel.kind == kHalfWords;
-    const auto number = [&](uint32_t list, uint32_t k) {
-        return halves ? at.word(list + k / 2) >> 16 * (k % 2) & 0xFFFFu : at.word(list + k);
-    };
     const auto vertex = [&](uint32_t i) { inPool ? at.pool(c.from + i) : at.cage(c.from + i); };
-    for (uint32_t r = 0; r < c.section.count && at.goesOn(); ++r) {
-        const uint32_t first = 4 * c.section.table + (halves ? 2 : 3) * r, list = at.word(first);
-        const uint32_t packed = at.word(first + 1);
-        const uint32_t own = halves ? packed & 0xFFFFu : packed, weights = halves ? packed >> 16 : at.word(first + 2);
-        const uint32_t pairs = number(list, 0);
-        vertex(number(list, 1));
-        for (uint32_t i = 0; i < pairs && at.goesOn(); ++i) {
-            vertex(number(list, 2 * i + 2));
-            vertex(number(list, 2 * i + 3));
-            (void)at.element(c.section.table - weights + i / 2, 3);
+    for (uint32_t lane = 0; lane < c.section.count && at.goesOn(); ++lane) {
+        const uint32_t block = c.section.table + lane / kBlockLanes;
+        const uint32_t row =
+            at.element(block, 0) + at.element(block, 1) * std::min(lane % kBlockLanes, at.element(block, 2) - 1);
+        const auto number = [&](uint32_t k) {
+            return halves ? at.word(row + k / 2) >> 16 * (k % 2) & 0xFFFFu : at.word(row + k);
+        };
+        for (uint32_t i = 0; i < std::max(at.element(block, 3), 1u) && at.goesOn(); ++i) {
+            vertex(number(2 * i + 2));
+            vertex(number(2 * i + 3));
+            (void)at.element(c.section.table - number(1) + i / 2, 3);
         }
-        at.pool(c.to + own);
+        at.pool(c.to + number(0));
     }
 }
 

@@ -48,9 +48,9 @@ code=0
 check --steps tests,lab,bench,profile --allow-cpu --lab "$folder/nowhere" || code=$?
 [ $code -eq 1 ] || fail "exit code $code with a test that fails"
 grep -q 'failed: tests (exit code 8' "$folder/log" || fail "does not name the step"
-expect 'list(steps) == ["device", "tests", "lab", "bench", "profile", "view"]'
-expect 'all(step["exitCode"] == {"tests": 8, "lab": None}.get(step["step"], 0) and not step["timedOut"] for step in result["steps"])'
-expect '"there is no lab" in steps["lab"]["leftOut"]'
+expect 'list(steps) == ["device", "tests", "lab_rows", "bench", "profile", "view"]'
+expect 'all(step["exitCode"] == {"tests": 8, "lab_rows": None}.get(step["step"], 0) and not step["timedOut"] for step in result["steps"])'
+expect '"there is no lab" in steps["lab_rows"]["leftOut"]'
 expect 'result["tests"] == {"passed": 1, "failed": 1, "skipped": 0, "failedNames": ["bad"], "skippedNames": []}'
 expect 'result["machine"]["device"] == result["bench"]["machine"]["device"] != ""'
 expect '"Made Up, 1.2" in result["system"]'
@@ -76,7 +76,7 @@ LAB
 chmod +x "$folder/lab/build.sh"
 "$sources/tools/gpu_check.sh" --pack "$folder/pack" --build-dir "$folder/build" --no-build --lab "$folder/lab" >"$folder/log" 2>&1 ||
     fail "does not pack"
-for name in basename bash cat cut date dirname env find free grep gzip head ldconfig ldd ln ls lscpu mkdir mktemp nproc realpath rm sed sh \
+for name in basename bash cat cut date dirname env find free grep gzip head ldconfig ldd ln ls lscpu mkdir mktemp mv nproc realpath rm sed sh \
     sleep sort tail tar timeout uname; do
     if path=$(PATH=$PATH:/sbin:/usr/sbin command -v "$name"); then
         ln -s "$path" "$folder/bare/$name"
@@ -91,16 +91,16 @@ packed() {
 }
 rm -rf "$folder/out"
 packed --steps lab,kernels,scene,patches,suites || fail "the packed form fails"
-expect '[step["step"] for step in result["steps"]] == ["device", "lab", "kernels", "scene", "scene_grouped", "levels", "loop_levels", "suites",
-        "patch_suites"] and all(step["exitCode"] == 0 for step in result["steps"])'
+expect '[step["step"] for step in result["steps"]] == ["device", "lab_rows", "kernels", "scene", "scene_grouped", "patch_suites", "suites",
+        "levels", "loop_levels"] and all(step["exitCode"] == 0 for step in result["steps"])'
 expect '[(run["instances"], len(run["surfaces"])) for scene in ("scene", "sceneGrouped") for run in result[scene]["runs"]] == [
         (60, 2 * 60), (60, 2 * 2)]'
 expect '[run["scheme"] for scene in ("levels", "loopLevels") for run in result[scene]["runs"]] == ["catmull-clark", "loop"]'
 expect '[(row["class"], len(row["ways"])) for row in result["kernels"]["kernels"]] == [("all", 4), ("regular", 4), ("perturbed", 4)]'
 none='"failed": 0, "skipped": 0, "notRun": 0, "failedNames": [], "skippedNames": [], "endedNames": []'
 expect "result['suites'] == {'passed': 4, $none} and result['patchSuites'] == {'passed': 2, $none}"
-[ "$(cat "$folder/out/lab.json")" = "--json $folder/out/lab.json --only rows" ] || fail "the lab was told something else"
-[ "$(cd "$folder/out" && echo *)" = "lab.json parts.tar.gz result.json" ] || fail "leaves other files"
+[ "$(cat "$folder/out/lab_rows.json")" = "--json $folder/out/lab_rows.json --only rows" ] || fail "the lab was told something else"
+[ "$(cd "$folder/out" && echo *)" = "lab_rows.json parts.tar.gz result.json" ] || fail "leaves other files"
 [[ $(tar -tzf "$folder/out/parts.tar.gz") == */scene.json* ]] || fail "the parts are not packed"
 [ -z "$(ls "$folder/tmp")" ] || fail "leaves temporary files"
 # Without Python all is measured, but for result.json.
@@ -109,7 +109,7 @@ code=0
 packed --steps lab || code=$?
 [ $code -eq 1 ] || fail "exit code $code without Python"
 grep -q 'failed: result.json (python3 is missing)' "$folder/log" || fail "does not say that Python is missing"
-[ "$(cd "$folder/out" && echo *)" = "lab.json parts.tar.gz" ] || fail "leaves other files without Python"
+[ "$(cd "$folder/out" && echo *)" = "lab_rows.json parts.tar.gz" ] || fail "leaves other files without Python"
 # What the processes of suites printed before they were ended.
 mkdir "$folder/parts"
 echo 'suites,180,124,' >"$folder/parts/steps.csv"
@@ -135,6 +135,14 @@ expect 'steps["suites"]["timedOut"] and result["suites"] == {"passed": 1, "faile
         "failedNames": ["A.Bad", "Mappings/B.Bad/Wide"], "skippedNames": ["A.Skipped"],
         "endedNames": ["A.AlsoSlow", "Mappings/B.Slow/Wide"]}'
 
+# The first nine steps fit into six minutes, whatever each of them does: with the grace of each, what comes before, and the end.
+seconds=$((20 + 5))
+# shellcheck disable=SC2013 # words
+for entry in $(sed -n '/^limits="/,/"$/p' "$sources/tools/gpu_check/steps.sh" | tr -d '"' | sed 's/^limits=//' | tr '\n' ' ' | cut -d ' ' -f 1-9); do
+    seconds=$((seconds + ${entry##*:} + 4))
+done
+[ $seconds -gt 300 ] && [ $seconds -le 360 ] || fail "the first steps take up to $seconds s"
+
 # A filter for a suite that has another name by now would run nothing.
 known=$("$runtime_tests" --gtest_list_tests)
 # shellcheck disable=SC2013 # words
@@ -149,7 +157,8 @@ done
 cat >"$folder/programs/timeout" <<TIMEOUT
 #!/bin/sh
 echo "\$@" >>"$folder/limits"
-shift 2 # --kill-after and the limit
+case "\$1" in --kill-after=*) shift ;; esac
+shift # the limit
 exec "\$@"
 TIMEOUT
 rm "$folder/build/bin/supple"

@@ -8,7 +8,7 @@ unpack() {
         exit 2
     fi
     unpacked=$(mktemp -d)
-    tar -xzf "$1/pack.tar.gz" -C "$unpacked"
+    timeout 10 tar -xzf "$1/pack.tar.gz" -C "$unpacked"
     mkdir "$unpacked/parts"
     parts=$unpacked/parts
     build=$unpacked/tree
@@ -88,11 +88,7 @@ lacking_libraries() {
     done | sed -n -e 's/^\t\([^ ]*\) => not found.*/\1/p' -e 's/.*\/\([^/]*\): version .* not found.*/\1/p' | sort -u
 }
 
-# Few files come back: one for all that result.json was made of.
-pack_parts() {
-    if [ "$parts" != "$out" ]; then
-        tar -czf "$out/parts.tar.gz" -C "$parts" . || true
-    fi
+remove_unpacked() {
     [ ${#links[@]} -eq 0 ] || rm -f "${links[@]}"
     [ -z "$unpacked" ] || rm -rf "$unpacked"
 }

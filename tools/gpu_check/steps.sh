@@ -10,10 +10,45 @@ fi
 grace=3 # seconds from TERM to KILL
 ending=5 # seconds of the budget that are kept for writing results
 least=5 # seconds: with less a step is not begun
+patience=$([ -n "$budget" ] && echo 5 || echo 20) # seconds for what only describes the machine
 
+# What a step may take at most, in seconds, in the order of --prebuilt. The first nine always fit into six minutes, with what it takes
+# to end each of them: 299 s, 9 times the grace and a second, 20 for unpacking and describing the machine, and what is kept. The others
+# get what is left (tests/tools/gpu_check_test.sh adds them up).
+limits="device:20 lab_patches:30 lab_columns:30 kernels:50 crowd:45 scene:20 scene_grouped:20 patch_suites:39 suites:45
+    profile:40 view:30 levels:20 loop_levels:20 triangles:30 lab_cluster:20 lab_rows:15 lab_only:10"
+# seconds_of STEP: where nobody has set a budget, it may take six times as long.
+seconds_of() {
+    local entry
+    for entry in $limits; do
+        [ "${entry%%:*}" != "$1" ] || echo $((${entry##*:} * $([ -n "$budget" ] && echo 1 || echo 6)))
+    done
+}
+# Whatever hangs: by the end of the budget the script ends, and clean_up keeps what there is. For budgets of a minute and less steps
+# alone keep to them.
+guard_budget() {
+    [ -n "$budget" ] || return 0
+    (
+        trap 'kill "$sleeper"; exit' TERM
+        sleep $((budget > 65 ? budget - ending : 60)) &
+        sleeper=$!
+        wait "$sleeper" && kill -TERM $$
+    ) </dev/null >/dev/null 2>&1 &
+    guard=$!
+}
+guard=''
+
+# After every step, so that nothing is lost if somebody ends the script.
 result() {
     if [ "$has_python" = yes ]; then
-        python3 "$scripts/result.py" "$parts" "$out/result.json" || failed+=("result.json")
+        timeout $ending python3 "$scripts/result.py" "$parts" "$out/result.json" || failed+=("result.json")
+    fi
+    pack_parts
+}
+# Few files come back: one for all that result.json was made of.
+pack_parts() {
+    if [ "$parts" != "$out" ] && timeout $ending tar -czf "$out/parts.new" -C "$parts" .; then
+        mv "$out/parts.new" "$out/parts.tar.gz"
     fi
 }
 # leave_out STEP REASON: so that nobody takes it for done.
@@ -64,6 +99,11 @@ run() {
 }
 shortened() { if [ ${#1} -gt 300 ]; then echo "${1:0:300} .."; else echo "$1"; fi }
 finish() {
+    local step code why ended=''
+    while IFS=, read -r step _ code why; do
+        [ "$code$why" != 0 ] || ended+=" $step"
+    done < <(cat "$parts/steps.csv" 2>/dev/null)
+    echo "ran to their end:${ended:- nothing}"
     if [ ${#failed[@]} -gt 0 ]; then
         printf 'failed: %s\n' "${failed[@]}"
         exit "${1:-1}"
@@ -74,12 +114,14 @@ running='' watcher=''
 clean_up() {
     [ -z "$running" ] || kill "$running" 2>/dev/null || true
     [ -z "$watcher" ] || kill "$watcher" 2>/dev/null || true
+    [ -z "$guard" ] || kill "$guard" 2>/dev/null || true
     if [ -n "$prebuilt" ]; then
         pack_parts
+        remove_unpacked
     fi
 }
 trap clean_up EXIT
-trap 'exit 143' INT TERM
+trap 'failed+=("the rest (ended from outside, or the budget was over)"); finish 143' INT TERM
 
 describe_machine() {
     echo "source: $(source_version)"
@@ -87,13 +129,13 @@ describe_machine() {
     lscpu | grep -E '^(Model name|CPU\(s\)|Thread|L[23])' || true
     free -h | head -2 || true
     if command -v nvidia-smi >/dev/null; then
-        timeout 20 nvidia-smi --format=csv \
+        timeout "$patience" nvidia-smi --format=csv \
             --query-gpu=name,driver_version,pstate,clocks.sm,clocks.mem,clocks.max.sm,clocks.max.mem,power.limit,memory.total || true
     else
         echo "no nvidia-smi"
     fi
     if command -v vulkaninfo >/dev/null; then
-        timeout 20 vulkaninfo --summary 2>/dev/null | sed -n '/^Devices/,$p' || true
+        timeout "$patience" vulkaninfo --summary 2>/dev/null | sed -n '/^Devices/,$p' || true
     fi
 }
 source_version() { cat "$build/version.txt" 2>/dev/null || git describe --always --dirty 2>/dev/null || echo unknown; }
@@ -109,11 +151,11 @@ watch_clocks() {
 short() { if [ "$quick" = yes ]; then echo "$1"; else echo "$2"; fi }
 # frames LONG: few where they take long.
 frames() { if [ "$is_cpu" = yes ]; then short 3 5; else short 3 "$1"; fi }
-# profile STEP SECONDS arguments...
+# profile STEP arguments...
 profile() {
-    local step=$1 seconds=$2
-    shift 2
-    run "$step" "$seconds" "$supple" profile "$@" "${device[@]}" --json "$parts/$step.json" || true
+    local step=$1
+    shift
+    run "$step" "$(seconds_of "$step")" "$supple" profile "$@" "${device[@]}" --json "$parts/$step.json" || true
 }
 
 step_tests() {
@@ -122,17 +164,31 @@ step_tests() {
     grep -E 'tests passed|\(Failed\)|\(Timeout\)|\*\*\*' "$parts/tests.txt" | sed 's/^/    /' || true
 }
 
-step_lab() {
-    local arguments=(--json "$out/lab.json")
+# lab KIND: of kernels. The lab writes its figures at its end, so each kind has a run of its own, which measures `rows` besides.
+lab() {
+    local arguments=(--json "$out/lab_$1.json" --only "$1")
     if [ ! -x "$lab" ]; then
-        leave_out lab "there is no lab: $lab"
+        leave_out "lab_$1" "there is no lab: $lab"
         return
     fi
     if [ ${#device[@]} -gt 0 ] && [[ ! ${device[1]} =~ ^[0-9]+$ ]]; then
         arguments+=("${device[@]}") # the lab knows devices by name alone
     fi
-    [ "$quick" = no ] || arguments+=(--only rows)
-    run lab 75 "$lab" "${arguments[@]}" || true
+    run "lab_$1" "$(seconds_of "lab_$1")" "$lab" "${arguments[@]}" || true
+}
+step_lab() {
+    if [ "$quick" = yes ]; then
+        lab rows
+    else
+        lab patches
+        lab columns
+    fi
+}
+step_lab_rest() {
+    local kind
+    for kind in cluster rows only; do
+        lab $kind
+    done
 }
 
 step_bench() {
@@ -148,7 +204,7 @@ step_crowd() {
     else
         bench+=(--schemes 'prep,pm,catmull-clark')
     fi
-    run crowd 60 "${bench[@]}" || true
+    run crowd "$(seconds_of crowd)" "${bench[@]}" || true
 }
 
 # Evaluation by classes of patches: either mapping, and fan records beside coefficients.
@@ -159,18 +215,18 @@ step_kernels() {
     else
         bench+=(--rounds 5)
     fi
-    run kernels 60 "${bench[@]}" || true
+    run kernels "$(seconds_of kernels)" "${bench[@]}" || true
 }
 
 step_profile() {
     local files=(samples/assets/pip.glb samples/assets/pip_quads.glb)
     local common=(--scheme "$(short pm all)" --instances "$instances")
     if [ -n "$prebuilt" ]; then
-        profile profile 40 samples/assets/pip_quads.glb "${common[@]}" --frames "$(frames 40)" --sweep "rate=$(short 4 4,8,16)"
-        profile view 30 "${files[@]}" "${common[@]}" --frames "$(frames 60)" --view
+        profile profile samples/assets/pip_quads.glb "${common[@]}" --frames "$(frames 40)" --sweep "rate=$(short 4 4,8,16)"
+        profile view "${files[@]}" "${common[@]}" --frames "$(frames 60)" --view
     else
-        profile profile 900 "${files[@]}" "${common[@]}" --frames "$(short 10 200)" --rate 8
-        profile view 900 "${files[@]}" "${common[@]}" --frames "$(short 10 200)" --view
+        profile profile "${files[@]}" "${common[@]}" --frames "$(short 10 200)" --rate 8
+        profile view "${files[@]}" "${common[@]}" --frames "$(short 10 200)" --view
     fi
 }
 
@@ -181,8 +237,8 @@ step_scene() {
         files+=("${kinds[i % 2]}")
     done
     local common=(--view --instances 60 --frames "$(frames 100)" --budget "$(short 100000 1000000)")
-    profile scene 20 "${files[@]}" "${common[@]}"
-    profile scene_grouped 20 "${kinds[@]}" "${common[@]}"
+    profile scene "${files[@]}" "${common[@]}"
+    profile scene_grouped "${kinds[@]}" "${common[@]}"
 }
 
 # In views Catmull-Clark and Loop ask how far chains are to go, and have a dispatch for each kind of edge and patch.
@@ -192,8 +248,8 @@ step_patches() {
         [ ! -f "$file" ] || loop+=("$file")
     done
     local common=(--view --instances "$instances" --frames "$(frames 100)")
-    profile levels 20 samples/assets/pip.glb samples/assets/pip_quads.glb --scheme catmull-clark "${common[@]}"
-    profile loop_levels 20 "${loop[@]}" --scheme loop "${common[@]}"
+    profile levels samples/assets/pip.glb samples/assets/pip_quads.glb --scheme catmull-clark "${common[@]}"
+    profile loop_levels "${loop[@]}" --scheme loop "${common[@]}"
 }
 
 # Loop's patches at rates.
@@ -204,11 +260,23 @@ step_triangles() {
     else
         bench+=(--rates '4,8,16')
     fi
-    run triangles 30 "${bench[@]}" || true
+    run triangles "$(seconds_of triangles)" "${bench[@]}" || true
 }
 
-# Those that had not run to their end on a GPU, then those of the patches and kernels that had not run on one at all.
+# Those of patches and kernels that had not run on a GPU at all, then those that had not run to their end on one.
 step_suites() {
+    local tests=$build/tests/runtime/supple_runtime_tests
+    if [ ! -x "$tests" ]; then
+        leave_out suites "there is no $tests"
+    elif [ -n "$filter" ]; then
+        suites suites "$filter"
+    else
+        suites patch_suites "$(short '*/LoopOnGpu.LowerRates*' "$(of_suites FanRecords LanePatches LodExact LodLoop LoopMappings LoopOnGpu)")"
+        suites suites "$(short '*/SubdivisionOnGpu.AttributesReach*' \
+            "$(of_suites BlendOnGpu ExactOnGpu IndexedMesh LodViewsOnce PmMappings PmOnGpu SubdivisionOnGpu)")"
+    fi
+}
+suites() {
     local tests=$build/tests/runtime/supple_runtime_tests
     if [ ! -x "$tests" ]; then
         leave_out suites "there is no $tests"
@@ -221,7 +289,7 @@ step_suites() {
     fi
 }
 suites() {
-    run "$1" "$2" "${validated[@]}" "$scripts/suites.sh" "$tests" "$3" "$jobs" || true
+    run "$1" "$(seconds_of "$1")" "${validated[@]}" "$scripts/suites.sh" "$tests" "$2" "$jobs" || true
     grep -F '[  FAILED  ]' "$parts/$1.txt" | sort -u | head -n 20 | sed 's/^/    /' || true
 }
 of_suites() {

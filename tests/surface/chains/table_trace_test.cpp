@@ -240,18 +240,17 @@ void traceStencils(const ExactTables& made, const Construction& c, const Tables&
     const auto vertex = [&](uint32_t i) {
         at.expect(c.from + i < (inPool ? tables.poolStride : made.vertices), "vertex", c.from + i);
     };
-    for (uint32_t row = 0; row < c.section.count && at.goesOn(); ++row) {
-        const uint32_t word = 4 * c.section.table + (halves ? 2 : 3) * row, list = at.word(word);
-        const uint32_t number = halves ? at.half(word + 1, 0) : at.word(word + 1);
-        const uint32_t weights = halves ? at.half(word + 1, 1) : at.word(word + 2);
-        const auto numberAt = [&](uint32_t k) { return halves ? at.half(list, k) : at.word(list + k); };
-        vertex(numberAt(1));
-        for (uint32_t pair = 0; pair < numberAt(0) && at.goesOn(); ++pair) {
+    for (uint32_t lane = 0; lane < c.section.count && at.goesOn(); ++lane) {
+        const uint32_t block = c.section.table + lane / kBlockLanes;
+        const uint32_t row =
+            at.element(block, 0) + at.element(block, 1) * std::min(lane % kBlockLanes, at.element(block, 2) - 1);
+        const auto numberAt = [&](uint32_t k) { return halves ? at.half(row, k) : at.word(row + k); };
+        for (uint32_t pair = 0; pair < std::max(at.element(block, 3), 1u) && at.goesOn(); ++pair) {
             vertex(numberAt(2 + 2 * pair));
             vertex(numberAt(3 + 2 * pair));
-            (void)at.element(c.section.table - weights + pair / 2, 3);
+            (void)at.element(c.section.table - numberAt(1) + pair / 2, 3);
         }
-        at.write(c.to + number);
+        at.write(c.to + numberAt(0));
     }
 }
 
@@ -279,6 +278,9 @@ public:
         }
         for (uint32_t k = 0; k < kNetPoints; ++k) {
             point((last >> kNetFirstShift) + at_.half(net, k), uvs);
+        }
+        if (at_.half(net, kNetListSharp) != 0) {
+            (void)at_.element(record + kQuadSharpnessElement, 3);
         }
     }
     /// `record`: where the vertices round it begin; those of texture coordinates have none.

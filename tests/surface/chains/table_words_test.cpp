@@ -43,7 +43,7 @@ public:
                 addStencils(c, made_.vertices);
                 break;
             case Kernel::subdivisionIsolateMeshInPool:
-                addStencils(c, tables_.meshVertices + uint64_t{tables_.constructions[0].section.count});
+                addStencils(c, tables_.meshVertices + uint64_t{tables_.constructions[0].coefficients});
                 break;
             case Kernel::chainsVertex:
             case Kernel::chainsVertexMeshInPool:
@@ -85,27 +85,32 @@ private:
     }
 
     void addStencils(const Construction& c, uint64_t vertices) {
-        const bool halves = c.kernel.kind == kHalfWords;
-        for (uint32_t row = 0; row < c.section.count; ++row) {
-            const uint64_t word = uint64_t{4} * c.section.table + (halves ? 2 : 3) * row;
-            const uint64_t list = at(word), weightsBad = c.section.table + uint64_t{1};
-            add("list of a row", word, words());
-            if (halves) {
-                addHalf("number of a row", word + 1, 0, pool() - c.to);
-                addHalf("weights of a row", word + 1, 1, weightsBad, weightsBad <= 0xFFFFu);
-                addHalf("pairs of a row", list, 0, words() - list);
-            } else {
-                add("number of a row", word + 1, pool() - c.to);
-                add("weights of a row", word + 2, weightsBad);
-                add("pairs of a row", list, words() - list);
+        for (uint32_t block = 0; block < c.section.count / kBlockLanes; ++block) {
+            const uint64_t word = uint64_t{4} * (c.section.table + block), each = at(word + 1), pairs = at(word + 3);
+            add("rows of a block of stencils", word, words());
+            add("words of a row", word + 1, each + 1);
+            add("number of rows of a block", word + 2, kBlockLanes + 1);
+            add("pairs of a row", word + 3, pairs + 1);
+            for (uint32_t row = 0; row < at(word + 2); ++row) {
+                addStencil(c, at(word) + each * row, pairs, vertices);
             }
-            const uint32_t pairs = halves ? half(list, 0) : at(list);
-            for (uint32_t k = 1; k < 2 * pairs + 2; ++k) {
-                if (halves) {
-                    addHalf("vertex of a row", list, k, vertices - c.from);
-                } else {
-                    add("vertex of a row", list + k, vertices - c.from);
-                }
+        }
+    }
+    void addStencil(const Construction& c, uint64_t row, uint64_t pairs, uint64_t vertices) {
+        const uint64_t weightsBad = c.section.table + uint64_t{1};
+        const bool halves = c.kernel.kind == kHalfWords;
+        if (halves) {
+            addHalf("number of a row", row, 0, pool() - c.to);
+            addHalf("weights of a row", row, 1, weightsBad, weightsBad <= 0xFFFFu);
+        } else {
+            add("number of a row", row, pool() - c.to);
+            add("weights of a row", row + 1, weightsBad);
+        }
+        for (uint32_t k = 2; k < 2 * pairs + 2; ++k) {
+            if (halves) {
+                addHalf("vertex of a row", row, k, vertices - c.from);
+            } else {
+                add("vertex of a row", row + k, vertices - c.from);
             }
         }
     }
@@ -121,7 +126,7 @@ private:
     }
 
     void addRing() {
-        const uint64_t vertices = tables_.meshVertices == 0 ? made_.vertices : tables_.constructions[0].section.count;
+        const uint64_t vertices = tables_.meshVertices == 0 ? made_.vertices : tables_.constructions[0].coefficients;
         for (uint64_t word = tables_.ring; word < tables_.ring + uint64_t{tables_.faces} - tables_.tangents; ++word) {
             numbers_.push_back({"element in the ring", word, elements(), kRingPlaceBits, 32 - kRingPlaceBits, true});
             const uint64_t element = SUPPLE_RING_ELEMENT(at(word));
@@ -223,9 +228,9 @@ private:
             return;
         }
         addLeaves(record + 4, record + 4 * kQuadNetListElement, record + 4 * kQuadNetElement, true);
-        const uint64_t last = record + 4 * kQuadNetElement + kNetListLastWord;
+        const uint64_t net = record + 4 * kQuadNetElement, last = net + kNetListLastWord;
+        addHalf("whether a quad has sharpness", net, kNetListSharp, half(net, kNetListSharp) ^ 1u);
         for (uint32_t i = 0; i < 4; ++i) {
-            const uint64_t net = record + 4 * kQuadNetElement;
             if (half(net, kNetListNormals + i) != 0 || half(net, kNetListNormals + (i + 1) % 4) != 0) {
                 numbers_.push_back({"cubic side of a quad", last, 1, kCubicSide + i, 1, true});
             }
@@ -240,6 +245,9 @@ private:
         const uint64_t chains = record + 4;
         const uint64_t net = isLoop() ? record + 12 : record + 4 * kQuadNetElement;
         addLeaves(chains, chains + 4, net, false);
+        if (!isLoop()) {
+            addHalf("whether texture coordinates have sharpness", net, kNetListSharp, 0);
+        }
         for (uint32_t i = 0; i < (isLoop() ? 3u : 4u); ++i) {
             if (isLoop()) {
                 numbers_.push_back(
@@ -361,13 +369,13 @@ TEST(ExactTableWords, QuadsOfCatmullClark) {
     const std::set<std::string> kinds =
         expectAllChecked(SchemeId::catmullClark, {withCharts(withCreases(withoutFaces(jack(), {0, 9}), true), true),
                                                   withCharts(gyroBipyramid(5)), straightCrease()});
-    EXPECT_EQ(kinds.size(), 51u) << "all that the list has for quads";
+    EXPECT_EQ(kinds.size(), 55u) << "all that the list has for quads";
 }
 
 TEST(ExactTableWords, TrianglesOfLoop) {
     const std::set<std::string> kinds = expectAllChecked(
         SchemeId::loop, {withCharts(withCreases(withoutFaces(quartered(gyroBipyramid(5)), {3}), false), true), cube()});
-    EXPECT_EQ(kinds.size(), 42u) << "all that the list has for triangles";
+    EXPECT_EQ(kinds.size(), 44u) << "all that the list has for triangles";
 }
 
 } // namespace
