@@ -27,9 +27,6 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     set->desc_ = desc;
     set->cageStride_ = cageStrideOf(desc.asset->character.cage.vertexCount());
     Status status = success();
-    if (desc.source == SUPPLE_POSES_PLAYBACK) {
-        status = desc.pose->prepare(desc.mode, {desc.room.updateRates, desc.room.springs, desc.asset->hasDrivers()});
-    }
     if (status && posesNodes(desc.source, desc.room.modifiers, desc.room.springs)) {
         status = desc.asset->makeClips(*desc.device);
     }
@@ -38,6 +35,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     }
     status = status && desc.room.springs ? set->takeSprings() : status;
     status = status && desc.room.soft ? set->takeSoft() : status;
+    status = status && desc.source == SUPPLE_POSES_PLAYBACK ? set->makePipelines() : status;
     if (!status) {
         return status.error();
     }
@@ -52,6 +50,17 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     const bool hasSets = !desc.asset->character.cage.creaseSets.empty();
     set->creaseAlphas_ = CreaseAlphas(hasSets ? desc.capacity : 0, ownAlphas());
     return set;
+}
+
+Status InstanceSet::makePipelines() {
+    const StateRoom& room = desc_.room;
+    const Result<skinning::PosePipelines> made =
+        desc_.pose->make(desc_.mode, {room.updateRates, room.hasSteps(), room.springs, desc_.asset->hasDrivers(),
+                                      skinning::clipKinds(desc_.asset->character)});
+    if (made) {
+        pipelines_ = *made;
+    }
+    return made ? success() : made.error();
 }
 
 Status InstanceSet::takeSprings() {
@@ -88,7 +97,7 @@ Status InstanceSet::makeBuffers(bool windowed) {
                                           VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     layout_ = poseLayoutOf(*desc_.asset, desc_.mode, windowed ? kPosePadding : 1);
-    poses_ = makePoseSource(desc_.source, {desc_.device, desc_.pose, desc_.asset.get(), layout_, desc_.capacity,
+    poses_ = makePoseSource(desc_.source, {desc_.device, pipelines_, desc_.asset.get(), layout_, desc_.capacity,
                                            desc_.framesInFlight, desc_.room});
     addMember(*poses_);
     addMember(userData_);

@@ -80,9 +80,12 @@ private:
     [[nodiscard]] Status takeSprings();
     /// Whether something is soft, and takes not too much; then the asset has its tables.
     [[nodiscard]] Status takeSoft();
+    /// Of the pose pass.
+    [[nodiscard]] Status makePipelines();
     void takeCreaseAlphas(const InstanceSet& other, const AssetMatch& match);
 
     Desc desc_;
+    skinning::PosePipelines pipelines_;
     skinning::PoseLayout layout_;
     InstanceSlots slots_;
     std::unique_ptr<PoseSource> poses_;

@@ -99,12 +99,18 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
     planned.cloths = soft && !prepared.character.cloths.empty();
     if (group.desc.poseSource == SUPPLE_POSES_PLAYBACK) {
         const Result<skinning::PoseKernels*> pose = makers.kernels->pose();
-        const skinning::PoseNeeds needs{(group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0,
-                                        (group.desc.flags & SUPPLE_GROUP_SPRINGS) != 0 &&
-                                            !prepared.character.springBones.springs.empty(),
-                                        planned.morphs && !prepared.character.drivers.empty()};
-        if (Status made = pose ? (*pose)->make(planned.skinning, needs) : pose.error(); !made) {
-            return made;
+        if (!pose) {
+            return pose.error();
+        }
+        skinning::PoseNeeds needs;
+        needs.mixes = (group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0;
+        needs.springs =
+            (group.desc.flags & SUPPLE_GROUP_SPRINGS) != 0 && !prepared.character.springBones.springs.empty();
+        needs.steps = needs.springs || planned.jiggles || planned.cloths;
+        needs.drivers = planned.morphs && !prepared.character.drivers.empty();
+        needs.clips = skinning::clipKinds(prepared.character);
+        if (const Result<skinning::PosePipelines> made = (*pose)->make(planned.skinning, needs); !made) {
+            return made.error();
         }
     }
     return makers.stages->makePipelines(planned, *makers.device, *makers.pipelines);

@@ -50,7 +50,7 @@ uint32_t placeInOther(uint32_t node, const AssetMatch& match, const skinning::Cl
 Status Playback::create(const Desc& desc) {
     const skinning::ClipTable& table = *desc.asset->clipTable;
     device_ = desc.device;
-    kernels_ = desc.kernels;
+    pipelines_ = desc.pipelines;
     asset_ = desc.asset;
     capacity_ = desc.capacity;
     windowSize_ = desc.windowSize;
@@ -58,7 +58,6 @@ Status Playback::create(const Desc& desc) {
     unshownPoses_ = unshownPoses(desc.room);
     hasCloths_ = desc.room.cloths;
     push_ = posePushOf(*desc.asset, desc.layout, desc.room);
-    mode_ = desc.layout.mode;
 
     modifiers_ = InstanceModifiers(desc.room.modifiers ? desc.capacity : 0, push_.morphCount);
     states_ = PlayedStates(
@@ -112,7 +111,7 @@ Status Playback::createBuffers(const Desc& desc) {
 
 Status Playback::createSets(const Desc& desc) {
     const gpu::Device& device = *desc.device;
-    Status status = sets_.create(device, kernels_->layout(), windowCount(), "supple pose");
+    Status status = sets_.create(device, pipelines_.layout(), windowCount(), "supple pose");
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
         return views_.make(device, buffer, format, offset, size, name, status);
     };
@@ -157,7 +156,7 @@ Status Playback::createSets(const Desc& desc) {
             {kInstanceTexelBinding, {}, listView},
         };
         if (status) {
-            sets_.write(device, kernels_->layout(), w, resources);
+            sets_.write(device, pipelines_.layout(), w, resources);
         }
     }
     return status;
@@ -617,8 +616,8 @@ bool Playback::has(Part part) const {
     }
 }
 
-skinning::PoseKernels::Locals Playback::locals() const {
-    using Locals = skinning::PoseKernels::Locals;
+skinning::PosePipelines::Locals Playback::locals() const {
+    using Locals = skinning::PosePipelines::Locals;
     const double first = std::min(firstStep_, time_);
     const bool inTransition = transitions_.meets(first, time_) && bounds_.anyInTransition(first, time_);
     return inTransition ? Locals::transition : adds_ ? Locals::add : Locals::blend;
@@ -660,39 +659,39 @@ void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, c
         recordLocals(dispatches, sets_[window], push);
         break;
     case Part::roots:
-        kernels_->recordRoots(dispatches, sets_[window], push);
+        pipelines_.recordRoots(dispatches, sets_[window], push);
         break;
     case Part::modifiers:
-        kernels_->recordModifiers(dispatches, sets_[window], push);
+        pipelines_.recordModifiers(dispatches, sets_[window], push);
         break;
     case Part::drivers:
-        kernels_->recordDrivers(dispatches, sets_[window], asset_->clipTable->drivenQuads, push);
+        pipelines_.recordDrivers(dispatches, sets_[window], asset_->clipTable->drivenQuads, push);
         break;
     case Part::springs:
-        kernels_->recordSprings(dispatches, sets_[window], push);
+        pipelines_.recordSprings(dispatches, sets_[window], push);
         break;
     case Part::palette:
-        kernels_->recordPalette(dispatches, sets_[window], mode_, push);
+        pipelines_.recordPalette(dispatches, sets_[window], push);
         break;
     case Part::mix:
-        kernels_->recordMix(dispatches, sets_[window], mode_, push);
+        pipelines_.recordMix(dispatches, sets_[window], push);
         break;
     }
 }
 
 void Playback::recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
-    using Locals = skinning::PoseKernels::Locals;
+    using Locals = skinning::PosePipelines::Locals;
     const Locals now = locals();
     if (!dispatches.takesEmpty() || !takesTransitions()) {
-        kernels_->recordLocals(dispatches, set, now, push);
+        pipelines_.recordLocals(dispatches, set, now, push);
         return;
     }
     // Transitions begin and end: the kernel that waits keeps its place.
     PosePush none = push;
     none.instanceCount = 0;
     const bool inTransition = now == Locals::transition;
-    kernels_->recordLocals(dispatches, set, adds_ ? Locals::add : Locals::blend, inTransition ? none : push);
-    kernels_->recordLocals(dispatches, set, Locals::transition, inTransition ? push : none);
+    pipelines_.recordLocals(dispatches, set, adds_ ? Locals::add : Locals::blend, inTransition ? none : push);
+    pipelines_.recordLocals(dispatches, set, Locals::transition, inTransition ? push : none);
 }
 
 void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
@@ -700,29 +699,29 @@ void Playback::recordWarmUp(VkCommandBuffer commandBuffer) const {
     gpu::Dispatches& dispatches = *own;
     const gpu::BoundSet& set = sets_[0];
     const PosePush none{}; // of no instances
-    for (size_t what = 0; what < skinning::PoseKernels::kLocals; ++what) {
+    for (size_t what = 0; what < skinning::PosePipelines::kLocals; ++what) {
         dispatches.computeBarrier();
-        kernels_->recordLocals(dispatches, set, static_cast<skinning::PoseKernels::Locals>(what), none);
+        pipelines_.recordLocals(dispatches, set, static_cast<skinning::PosePipelines::Locals>(what), none);
     }
     dispatches.computeBarrier();
-    kernels_->recordRoots(dispatches, set, none);
+    pipelines_.recordRoots(dispatches, set, none);
     if (takesModifiers()) {
         dispatches.computeBarrier();
-        kernels_->recordModifiers(dispatches, set, none);
+        pipelines_.recordModifiers(dispatches, set, none);
     }
     if (hasDrivers()) {
         dispatches.computeBarrier();
-        kernels_->recordDrivers(dispatches, set, asset_->clipTable->drivenQuads, none);
+        pipelines_.recordDrivers(dispatches, set, asset_->clipTable->drivenQuads, none);
     }
     if (hasSprings()) {
         dispatches.computeBarrier();
-        kernels_->recordSprings(dispatches, set, none);
+        pipelines_.recordSprings(dispatches, set, none);
     }
     dispatches.computeBarrier();
-    kernels_->recordPalette(dispatches, set, mode_, none);
+    pipelines_.recordPalette(dispatches, set, none);
     if (takesUpdateRates()) {
         dispatches.computeBarrier();
-        kernels_->recordMix(dispatches, set, mode_, none);
+        pipelines_.recordMix(dispatches, set, none);
     }
 }
 

@@ -49,7 +49,7 @@ class Playback {
 public:
     struct Desc {
         const gpu::Device* device = nullptr;
-        const skinning::PoseKernels* kernels = nullptr;
+        skinning::PosePipelines pipelines;
         Asset* asset = nullptr; ///< with its clip table; must outlive this
         skinning::PoseLayout layout;
         uint32_t capacity = 0;
@@ -218,7 +218,7 @@ private:
     void sample(uint32_t slot, double time, bool modified, skinning::SampledPose& pose);
     void sampleShown(uint32_t slot, const TransitionRequest& request);
     void startTransition(uint32_t slot, const TransitionRequest& request);
-    [[nodiscard]] skinning::PoseKernels::Locals locals() const;
+    [[nodiscard]] skinning::PosePipelines::Locals locals() const;
     void recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::PosePush& push) const;
     void takeOverState(Playback& other, uint32_t slot, const AssetMatch& match);
     void evaluate(uint32_t slot); ///< into twin_, and of what lies between two ends the later into laterTwin_
@@ -244,12 +244,11 @@ private:
     void forgetEndsOf(Holds&& holds); ///< of instances that have a layer for which holds(PlaybackLayer)
 
     const gpu::Device* device_ = nullptr;
-    const skinning::PoseKernels* kernels_ = nullptr;
+    skinning::PosePipelines pipelines_;
     Asset* asset_ = nullptr;
     uint32_t capacity_ = 0, windowSize_ = 0, posesInFrame_ = 1, unshownPoses_ = 0;
     bool hasCloths_ = false;
     double time_ = 0.0;
-    skinning::SkinningMode mode_ = skinning::SkinningMode::linear;
     /// What some instance has ever been set to do.
     bool adds_ = false, roots_ = false, modifies_ = false, plants_ = false;
     shared::PosePush push_{};            ///< but for the time, the instances and the feet

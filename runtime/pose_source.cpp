@@ -120,7 +120,7 @@ public:
     }
 
     [[nodiscard]] Status create(const Buffers& buffers) override {
-        return playback_.create({desc_.device, desc_.poseKernels, desc_.asset, desc_.layout, desc_.capacity,
+        return playback_.create({desc_.device, desc_.pipelines, desc_.asset, desc_.layout, desc_.capacity,
                                  buffers.windowSize, desc_.framesInFlight, buffers.poses, buffers.instances,
                                  buffers.instanceBytes, desc_.room});
     }

@@ -88,7 +88,7 @@ public:
 
 struct PoseSourceDesc {
     const gpu::Device* device = nullptr;
-    const skinning::PoseKernels* poseKernels = nullptr; ///< null unless instances play on the device
+    skinning::PosePipelines pipelines; ///< where instances play on the device
     Asset* asset = nullptr;
     skinning::PoseLayout layout;
     uint32_t capacity = 0, framesInFlight = 2;

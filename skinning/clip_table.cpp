@@ -347,6 +347,16 @@ NodeOrder nodeOrder(const cage::Character& character) {
     return order;
 }
 
+ClipKinds clipKinds(const cage::Character& character) {
+    ClipKinds kinds;
+    for (const cage::Clip& clip : character.clips) {
+        kinds.keyed = kinds.keyed || clip.packed.channelCount < clip.channels.size();
+        kinds.packed = kinds.packed || !clip.packed.words.empty();
+        kinds.coarse = kinds.coarse || !clip.packed.coarseWords.empty();
+    }
+    return kinds;
+}
+
 size_t clipBytes(const NodeOrder& order, const cage::Clip& clip) {
     constexpr size_t kElement = 16;
     size_t elements = 1, words = clip.packed.words.size() + clip.packed.coarseWords.size();

@@ -17,6 +17,14 @@ struct NodeOrder {
 };
 [[nodiscard]] NodeOrder nodeOrder(const cage::Character& character);
 
+/// What the clips of a character are made of.
+struct ClipKinds {
+    bool keyed = false;  ///< some have channels of keys
+    bool packed = false; ///< some are packed
+    bool coarse = false; ///< some have a coarse twin
+};
+[[nodiscard]] ClipKinds clipKinds(const cage::Character& character);
+
 /// Bytes that a clip takes in the table, beside key times that it shares with others.
 [[nodiscard]] size_t clipBytes(const NodeOrder& order, const cage::Clip& clip);
 

@@ -21,9 +21,8 @@ using namespace shared;
 
 static_assert(sizeof(PosePush) <= gpu::kPushConstantBytes);
 
-/// Poses of rows, and of rows and rotations.
-size_t kindOf(SkinningMode mode) {
-    return skinningRow(mode).rotations ? 1 : 0;
+VkBool32 constantOf(bool value) {
+    return value ? VK_TRUE : VK_FALSE;
 }
 
 } // namespace
@@ -49,109 +48,86 @@ Result<PoseKernels> PoseKernels::create(const gpu::Device& device, gpu::Pipeline
     return made;
 }
 
-Result<PoseKernels::Kernels> PoseKernels::kernels(SkinningMode mode, PoseNeeds needs) const {
-    const bool rotations = skinningRow(mode).rotations;
-    const gpu::Constant constants[] = {
-        {kWorkgroupRowsConstant, device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1},
-        {kRotationsConstant, rotations ? VK_TRUE : VK_FALSE}};
+Result<PosePipelines> PoseKernels::make(SkinningMode mode, const PoseNeeds& needs) const {
+    PosePipelines made;
+    made.device_ = device_;
+    made.layout_ = &layout_;
+    made.rotations_ = skinningRow(mode).rotations;
+    const uint32_t rows = device_->mapping.wide ? kAffineElements * kWorkgroupNodes : 1;
+    const bool all = device_->mapping.sharesDispatches; // groups of all kinds share those of one kernel
+    const gpu::Constant listed{kListedConstant, constantOf(all || needs.mixes || needs.steps)};
+    const gpu::Constant rotations{kRotationsConstant, constantOf(made.rotations_)};
+    const gpu::Constant ofClips[] = {listed,
+                                     {kKeyedClipsConstant, constantOf(all || needs.clips.keyed)},
+                                     {kPackedClipsConstant, constantOf(all || needs.clips.packed)},
+                                     {kCoarseTwinsConstant, constantOf(all || needs.clips.coarse)}};
+    const gpu::Constant ofPalette[] = {listed, rotations, {kWorkgroupRowsConstant, rows}};
+    const std::span ofLists(&listed, 1), ofMix(&rotations, 1);
     gpu::Pipelines::Batch batch(*pipelines_);
-    Kernels found;
-    found.locals[0] = batch.get(layout_, pose_locals_comp, {}, "supple pose, local matrices");
-    found.locals[1] = batch.get(layout_, pose_locals_comp_ADDS, {}, "supple pose, local matrices, additive");
-    found.locals[2] =
-        batch.get(layout_, pose_locals_comp_ADDS_TRANSITIONS, {}, "supple pose, local matrices, transitions");
-    found.roots = batch.get(layout_, pose_roots_comp, {}, "supple pose, roots");
-    found.modifiers = batch.get(layout_, pose_modify_comp, {}, "supple pose, modifiers");
-    found.palette = batch.get(layout_, pose_palette_comp, constants,
-                              rotations ? "supple pose, palette with rotations" : "supple pose, palette");
-    const gpu::Constant layout[] = {{kRotationsConstant, rotations ? VK_TRUE : VK_FALSE}};
+    const auto get = [&](const gpu::Spirv& spirv, std::span<const gpu::Constant> constants, const char* name) {
+        return batch.get(layout_, spirv, constants, name);
+    };
+    made.locals_[0] = get(pose_locals_comp, ofClips, "supple pose, local matrices");
+    made.locals_[1] = get(pose_locals_comp_ADDS, ofClips, "supple pose, local matrices, additive");
+    made.locals_[2] = get(pose_locals_comp_ADDS_TRANSITIONS, ofClips, "supple pose, local matrices, transitions");
+    made.roots_ = get(pose_roots_comp, ofClips, "supple pose, roots");
+    made.modifiers_ = get(pose_modify_comp, ofLists, "supple pose, modifiers");
+    made.palette_ = get(pose_palette_comp, ofPalette,
+                        made.rotations_ ? "supple pose, palette with rotations" : "supple pose, palette");
     if (needs.mixes) {
-        found.mix =
-            batch.get(layout_, pose_mix_comp, layout,
-                      rotations ? "supple pose, between palettes with rotations" : "supple pose, between palettes");
+        made.mix_ =
+            get(pose_mix_comp, ofMix,
+                made.rotations_ ? "supple pose, between palettes with rotations" : "supple pose, between palettes");
     }
     if (needs.drivers) {
-        found.drivers = batch.get(layout_, pose_drivers_comp, {}, "supple pose, drivers");
+        made.drivers_ = get(pose_drivers_comp, ofLists, "supple pose, drivers");
     }
     if (needs.springs) {
-        found.springs = batch.get(layout_, pose_springs_comp, {}, "supple pose, springs");
+        made.springs_ = get(pose_springs_comp, ofLists, "supple pose, springs");
     }
-    const Status made = batch.make();
-    return made ? Result<Kernels>(found) : made.error();
+    const Status status = batch.make();
+    return status ? Result<PosePipelines>(made) : status.error();
 }
 
-Status PoseKernels::make(SkinningMode mode, PoseNeeds needs) const {
-    const Result<Kernels> made = kernels(mode, needs);
-    return made ? success() : made.error();
-}
-
-Status PoseKernels::prepare(SkinningMode mode, PoseNeeds needs) {
-    const Result<Kernels> made = kernels(mode, needs);
-    if (!made) {
-        return made.error();
-    }
-    std::copy(std::begin(made->locals), std::end(made->locals), locals_);
-    roots_ = made->roots;
-    modifiers_ = made->modifiers;
-    const size_t kind = kindOf(mode);
-    palette_[kind] = made->palette;
-    if (needs.mixes) {
-        mix_[kind] = made->mix;
-    }
-    if (needs.drivers) {
-        drivers_ = made->drivers;
-    }
-    if (needs.springs) {
-        springs_ = made->springs;
-    }
-    return success();
-}
-
-void PoseKernels::record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push,
-                         const gpu::Kernel& kernel, uint64_t groups) const {
-    dispatches.dispatch(kernel, set, push, groups);
-}
-
-void PoseKernels::recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, Locals what,
-                               const PosePush& push) const {
+void PosePipelines::recordLocals(gpu::Dispatches& dispatches, const gpu::BoundSet& set, Locals what,
+                                 const PosePush& push) const {
     const uint64_t items = uint64_t{push.nodeCount} + 1 + (push.morphCount + 3) / 4;
     const uint64_t local = device_->mapping.localSize;
-    record(dispatches, set, push, locals_[static_cast<size_t>(what)], (items * push.instanceCount + local - 1) / local);
+    dispatches.dispatch(locals_[static_cast<size_t>(what)], set, push,
+                        (items * push.instanceCount + local - 1) / local);
 }
 
-void PoseKernels::recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
+void PosePipelines::recordRoots(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
-    record(dispatches, set, push, roots_, (push.instanceCount + local - 1) / local);
+    dispatches.dispatch(roots_, set, push, (push.instanceCount + local - 1) / local);
 }
 
-void PoseKernels::recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
+void PosePipelines::recordModifiers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
-    record(dispatches, set, push, modifiers_, (push.instanceCount + local - 1) / local);
+    dispatches.dispatch(modifiers_, set, push, (push.instanceCount + local - 1) / local);
 }
 
-void PoseKernels::recordDrivers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, uint32_t quads,
-                                const PosePush& push) const {
+void PosePipelines::recordDrivers(gpu::Dispatches& dispatches, const gpu::BoundSet& set, uint32_t quads,
+                                  const PosePush& push) const {
     const uint64_t local = device_->mapping.localSize;
-    record(dispatches, set, push, drivers_, (uint64_t{quads} * push.instanceCount + local - 1) / local);
+    dispatches.dispatch(drivers_, set, push, (uint64_t{quads} * push.instanceCount + local - 1) / local);
 }
 
-void PoseKernels::recordSprings(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
+void PosePipelines::recordSprings(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
     const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
-    record(dispatches, set, push, springs_, (push.instanceCount + local - 1) / local);
+    dispatches.dispatch(springs_, set, push, (push.instanceCount + local - 1) / local);
 }
 
-void PoseKernels::recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
-                                const PosePush& push) const {
+void PosePipelines::recordPalette(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
     const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
-    record(dispatches, set, push, palette_[kindOf(mode)], (push.instanceCount + local - 1) / local);
+    dispatches.dispatch(palette_, set, push, (push.instanceCount + local - 1) / local);
 }
 
-void PoseKernels::recordMix(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SkinningMode mode,
-                            const PosePush& push) const {
-    const uint64_t place = skinningRow(mode).rotations ? 1 : 0; // the transform
+void PosePipelines::recordMix(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const PosePush& push) const {
+    const uint64_t place = rotations_ ? 1 : 0; // the transform
     const uint64_t items = push.jointCount + place + (push.morphCount + 3) / 4;
     const uint64_t local = device_->mapping.localSize;
-    record(dispatches, set, push, mix_[kindOf(mode)], (items * push.instanceCount + local - 1) / local);
+    dispatches.dispatch(mix_, set, push, (items * push.instanceCount + local - 1) / local);
 }
 
 } // namespace supple::skinning

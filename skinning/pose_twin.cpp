@@ -49,7 +49,8 @@ private:
 
 template <bool roots>
 struct PoseCode : PoseLoads {
-    static constexpr bool kAdds = true, kRoots = roots, kTransitions = true;
+    static constexpr bool kAdds = true, kRoots = roots, kTransitions = true, kKeyedClips = true, kPackedClips = true,
+                          kCoarseTwins = true;
 #include "shaders/pose/contacts.h"
 #include "shaders/pose/layers.h"
 #include "shaders/pose/transition.h"

@@ -1,6 +1,10 @@
 // Sampling a clip, node by node: the keys of a channel, STEP, LINEAR and CUBICSPLINE as glTF has them, clamped outside.
 // Needs table(), tableFloats(), packedFloat() and `push`: GLSL has them from tables.glsl; in C++ this is the inside of a
-// class (skinning/pose_twin.cpp), as nodes.h, layers.h and root.h are.
+// class (skinning/pose_twin.cpp), as nodes.h, layers.h and root.h are. Needs `const bool kKeyedClips`, `kPackedClips`: whether
+// some clips have channels of keys, and some are packed.
+//
+// Loops of much code are tested at the bottom, and what they do stands in an `if`: lavapipe would go through it once more than
+// there are turns, with no lane, and goes on computing lanes that have left while others go round.
 #include "shaders/pose/knots.h"
 #include "shaders/pose/nodes.h"
 #include "shaders/pose/packed.h"
@@ -12,30 +16,30 @@ struct KeySpan {
     float seconds; // 0: the key's own value
 };
 KeySpan keysAt(uvec4 channel, vec2 time) {
-    // The first key later than the time; a key's own time gives its value as it is. Most clips have keys at even times, so
-    // that the first guess is right and nothing is left to search; what is left has the key between `low` and `high`.
-    uint keys = channel.x >> 2u, low = 0u, high = keys;
-    if (keys > 1u) {
-        uint guess = uint(clamp(time.x * uintBitsToFloat(channel.y), 0.0f, float(keys - 2u)));
-        bool before = earlier(time, vec2(packedFloat(channel.z, guess), 0.0f));
-        bool within = earlier(time, vec2(packedFloat(channel.z, guess + 1u), 0.0f));
-        low = before ? 0u : within ? guess + 1u : guess + 2u;
-        high = before ? guess : within ? guess + 1u : keys;
-    }
-    while (low < high) {
-        uint middle = (low + high) / 2u;
-        if (earlier(time, vec2(packedFloat(channel.z, middle), 0.0f))) {
-            high = middle;
-        } else {
-            low = middle + 1u;
+    // From which key on the time is before the next one; a key's own time gives its value as it is. Most clips have keys at even
+    // times, so that the first guess is right and nothing is left to search: it is among `low` to `high`.
+    uint keys = channel.x >> 2u, low = 0u, high = max(keys, 1u) - 1u;
+    uint key = uint(clamp(time.x * uintBitsToFloat(channel.y), 0.0f, float(max(high, 1u) - 1u)));
+    float begin = 0.0f, end = 0.0f;
+    bool before = false, behind = false, searches = true;
+    do {
+        if (searches) {
+            begin = packedFloat(channel.z, key);
+            end = packedFloat(channel.z, key + 1u);
+            before = earlier(time, vec2(begin, 0.0f));
+            behind = !earlier(time, vec2(end, 0.0f));
+            if (before) high = key;
+            if (behind) low = key + 1u;
+            searches = (before || behind) && low < high;
+            if (searches) key = (low + high) / 2u;
         }
-    }
+    } while (searches);
+    bool between = keys > 1u && !before && !behind;
     KeySpan span;
-    span.key = max(low, 1u) - 1u;
+    span.key = between || before ? key : min(low, max(keys, 1u) - 1u);
     span.t = 0.0f;
     span.seconds = 0.0f;
-    if (low > 0u && low < keys && (channel.x & 3u) != kStepKeys) {
-        float begin = packedFloat(channel.z, span.key), end = packedFloat(channel.z, low);
+    if (between && (channel.x & 3u) != kStepKeys) {
         SUPPLE_PRECISE float seconds = end - begin;
         SUPPLE_PRECISE float passed = (time.x - begin) + time.y;
         SUPPLE_PRECISE float t = passed * recip(max(seconds, 1e-30f));
@@ -81,21 +85,26 @@ vec4 channelAt(uint record, vec2 time, bool turns) {
 Transform clipTransform(uint clip, vec2 time, uint node) {
     uint nodes = table(push.clips + clip).x;
     SUPPLE_PRECISE Transform t = restTransform(node);
-    for (uint packed = nodes & kPackedClip; packed != 0u; packed = 0u) { // a loop, so that lavapipe can leave it out
+    if (kPackedClips && (nodes & kPackedClip) != 0u) {
         uint head = nodes ^ kPackedClip;
         t = packedTransform(head, time, node, t);
         nodes = table(head + 2u).x;
     }
-    uvec4 channels = nodes != 0u ? table(nodes + node) : uvec4(0u);
-    // A loop over those that are there, so that the code is there once.
-    uint paths = (channels.x != 0u ? 1u : 0u) | (channels.y != 0u ? 2u : 0u) | (channels.z != 0u ? 4u : 0u);
-    for (; paths != 0u; paths &= paths - 1u) {
-        uint path = uint(findLSB(paths));
-        uint record = path == 0u ? channels.x : path == 1u ? channels.y : channels.z;
-        SUPPLE_PRECISE vec4 value = channelAt(record, time, path == 1u);
-        if (path == 0u) t.translation = vec3(value);
-        if (path == 1u) t.rotation = value;
-        if (path == 2u) t.scale = vec3(value);
+    if (kKeyedClips) {
+        uvec4 channels = nodes != 0u ? table(nodes + node) : uvec4(0u);
+        // A loop over those that are there, so that the code is there once.
+        uint paths = (channels.x != 0u ? 1u : 0u) | (channels.y != 0u ? 2u : 0u) | (channels.z != 0u ? 4u : 0u);
+        do {
+            if (paths != 0u) {
+                uint path = uint(findLSB(paths));
+                uint record = path == 0u ? channels.x : path == 1u ? channels.y : channels.z;
+                SUPPLE_PRECISE vec4 value = channelAt(record, time, path == 1u);
+                if (path == 0u) t.translation = vec3(value);
+                if (path == 1u) t.rotation = value;
+                if (path == 2u) t.scale = vec3(value);
+                paths &= paths - 1u;
+            }
+        } while (paths != 0u);
     }
     return t;
 }
@@ -125,13 +134,18 @@ float channelWeight(uvec4 entry, vec2 time) { // (channel, place in a value, num
 vec4 clipMorphWeights(uint clip, vec2 time, uint quad) {
     uvec4 own = table(push.clips + clip);
     SUPPLE_PRECISE vec4 weights = tableFloats(push.restWeights + quad);
-    for (uint packed = own.x & kPackedClip; packed != 0u; packed = 0u) {
+    if (kPackedClips && (own.x & kPackedClip) != 0u) {
         weights = packedWeights(own.x ^ kPackedClip, time, quad, weights);
     }
-    uint count = own.y != 0u ? min(push.morphCount - 4u * quad, 4u) : 0u;
-    for (uint k = 0u; k < count; ++k) {
-        uvec4 entry = table(own.y + 4u * quad + k);
-        if (entry.x != 0u) weights = withComponent(weights, k, channelWeight(entry, time));
+    if (kKeyedClips) {
+        uint count = own.y != 0u ? min(push.morphCount - 4u * quad, 4u) : 0u, k = 0u;
+        do {
+            if (k < count) {
+                uvec4 entry = table(own.y + 4u * quad + k);
+                if (entry.x != 0u) weights = withComponent(weights, k, channelWeight(entry, time));
+            }
+            ++k;
+        } while (k < count);
     }
     return weights;
 }

@@ -33,7 +33,7 @@ vec4 heldInClip(uint clip, vec2 time, uint foot, uint root, uint axes, vec3 posi
     SUPPLE_PRECISE float within = min(max(time.x + time.y, 0.0f), duration.x + duration.y);
     SUPPLE_PRECISE vec4 held = contactAt(clip, within, foot);
     bool moves = held.w > 0.0f && axes != 0u && hangsOn(table(push.contacts + foot).x, root);
-    for (; moves; moves = false) { // a loop, so that lavapipe does not step through it where no foot stands
+    if (moves) {
         SUPPLE_PRECISE Transform own;
         RootFrame now = rootFrame(clip, time, root, axes, own);
         Motion motion = motionSince(position, rotation, now, axes);
@@ -58,15 +58,19 @@ vec4 heldFoot(uint first, uint foot) {
     uvec4 header = state(first);
     uint node = table(push.contacts + foot).x;
     SUPPLE_PRECISE vec4 held = vec4(0.0f);
-    for (uint i = 0u; i < header.x; ++i) {
-        Layer layer = layerAt(first + kStateElements + i * kLayerElements);
-        float weight = masked(layer, 0u, node);
-        if (weight != 0.0f && (layer.flags & kLayerAdds) == 0u) {
-            vec4 own = heldInClip(layer.clip, clipTime(layer, layer.time), foot, header.z, header.w,
-                                  vec3(stateFloats(layer.first + 4u)), stateFloats(layer.first + 5u));
-            held = heldMix(held, own, weight);
+    uint i = 0u;
+    do { // see clip.h
+        if (i < header.x) {
+            Layer layer = layerAt(first + kStateElements + i * kLayerElements);
+            float weight = masked(layer, 0u, node);
+            if (weight != 0.0f && (layer.flags & kLayerAdds) == 0u) {
+                vec4 own = heldInClip(layer.clip, clipTime(layer, layer.time), foot, header.z, header.w,
+                                      vec3(stateFloats(layer.first + 4u)), stateFloats(layer.first + 5u));
+                held = heldMix(held, own, weight);
+            }
         }
-    }
+        ++i;
+    } while (i < header.x);
     Transition transition = transitionOf(first);
     if (transition.kind != kNoTransition) held = held * blendedIn(transition);
     return held;

@@ -90,69 +90,96 @@ Transform added(Transform pose, Transform to, Transform reference, float weight)
     return t;
 }
 
+// The pose with a layer applied to it. `travels`: `sinceBegin` is asked for, whatever the weight.
+Transform withLayer(uvec4 header, Layer layer, float weight, bool travels, uint node, Transform pose,
+                    SUPPLE_INOUT(Motion) sinceBegin) {
+    SUPPLE_PRECISE Motion motion = sinceBegin;
+    bool adds = kAdds && (layer.flags & kLayerAdds) != 0u;
+    SUPPLE_PRECISE Transform reference = pose, to = pose;
+    if (kAdds) {
+        // A loop, so that the code is there once: what the layer adds to, then what it shows.
+        uint sampled = adds ? 0u : 1u;
+        do { // see clip.h
+            if (sampled < 2u) {
+                vec2 time = layer.time;
+                if (sampled == 0u) time = referenceTime(layer);
+                reference = to;
+                to = layerTransform(header, layer, clipTime(layer, time), node, motion);
+            }
+            ++sampled;
+        } while (sampled < 2u);
+    } else {
+        to = layerTransform(header, layer, clipTime(layer, layer.time), node, motion);
+    }
+    if (travels) sinceBegin = motion;
+    SUPPLE_PRECISE Transform result = pose;
+    if (weight != 0.0f) {
+        if (adds) {
+            result = added(pose, to, reference, weight);
+        } else {
+            result = blended(pose, to, weight);
+        }
+    }
+    return result;
+}
+
 // `sinceBegin`: with kRoots, what the first layer's root has moved by, whatever the layer's weight.
 Transform posedTransform(uint first, uint node, SUPPLE_INOUT(Motion) sinceBegin) {
     uvec4 header = state(first);
     SUPPLE_PRECISE Transform pose = restTransform(node);
-    for (uint i = 0u; i < header.x; ++i) {
-        Layer layer = layerAt(first + kStateElements + i * kLayerElements);
-        float weight = masked(layer, 0u, node);
-        bool travels = kRoots && i == 0u;
-        if (weight != 0.0f || travels) {
-            SUPPLE_PRECISE Motion motion = sinceBegin;
-            // A loop, so that the code is there once: what the layer adds to, then what it shows.
-            bool adds = kAdds && (layer.flags & kLayerAdds) != 0u;
-            SUPPLE_PRECISE Transform reference = pose, to = pose;
-            if (kAdds) {
-                for (uint sampled = adds ? 0u : 1u; sampled < 2u; ++sampled) {
-                    vec2 time = layer.time;
-                    if (sampled == 0u) time = referenceTime(layer);
-                    reference = to;
-                    to = layerTransform(header, layer, clipTime(layer, time), node, motion);
-                }
-            } else {
-                to = layerTransform(header, layer, clipTime(layer, layer.time), node, motion);
-            }
-            if (travels) sinceBegin = motion;
-            if (weight != 0.0f) {
-                if (adds) {
-                    pose = added(pose, to, reference, weight);
-                } else {
-                    pose = blended(pose, to, weight);
-                }
-            }
+    uint i = 0u;
+    do { // see clip.h
+        if (i < header.x) {
+            Layer layer = layerAt(first + kStateElements + i * kLayerElements);
+            float weight = masked(layer, 0u, node);
+            bool travels = kRoots && i == 0u;
+            if (weight != 0.0f || travels) pose = withLayer(header, layer, weight, travels, node, pose, sinceBegin);
         }
-    }
+        ++i;
+    } while (i < header.x);
     return pose;
 }
 
-// Four morph weights of what is played.
-vec4 playedMorphWeights(uint first, uint quad) {
-    uvec4 header = state(first);
-    uint count = min(push.morphCount - 4u * quad, 4u);
-    SUPPLE_PRECISE vec4 pose = tableFloats(push.restWeights + quad);
-    for (uint i = 0u; i < header.x; ++i) {
-        Layer layer = layerAt(first + kStateElements + i * kLayerElements);
-        SUPPLE_PRECISE vec4 shares = vec4(layer.weight);
-        if (layer.mask != 0u) {
-            shares = shares * maskValues((layer.mask - 1u) * push.maskStride + (push.nodeCount + 3u) / 4u + quad);
-        }
-        // A loop, so that the code is there once: what the layer adds to, then what it shows.
-        bool adds = kAdds && (layer.flags & kLayerAdds) != 0u;
-        SUPPLE_PRECISE vec4 from = pose, to = pose;
-        for (uint sampled = shares == vec4(0.0f) ? 2u : adds ? 0u : 1u; sampled < 2u; ++sampled) {
+// Four morph weights with a layer applied to them, of which `count` are there.
+vec4 withMorphLayer(Layer layer, vec4 shares, uint quad, uint count, vec4 pose) {
+    bool adds = kAdds && (layer.flags & kLayerAdds) != 0u;
+    SUPPLE_PRECISE vec4 from = pose, to = pose, result = pose;
+    // A loop, so that the code is there once: what the layer adds to, then what it shows.
+    uint sampled = adds ? 0u : 1u;
+    do { // see clip.h
+        if (sampled < 2u) {
             vec2 time = layer.time;
             if (sampled == 0u) time = referenceTime(layer);
             from = to;
             to = clipMorphWeights(layer.clip, clipTime(layer, time), quad);
         }
-        for (uint k = 0u; k < count; ++k) {
-            float share = component(shares, k), before = component(pose, k), after = component(to, k);
-            SUPPLE_PRECISE float mixed = before + (after - (adds ? component(from, k) : before)) * share;
-            if (share == 1.0f && !adds) mixed = after;
-            if (share != 0.0f) pose = withComponent(pose, k, mixed);
-        }
+        ++sampled;
+    } while (sampled < 2u);
+    for (uint k = 0u; k < count; ++k) {
+        float share = component(shares, k), before = component(pose, k), after = component(to, k);
+        SUPPLE_PRECISE float mixed = before + (after - (adds ? component(from, k) : before)) * share;
+        if (share == 1.0f && !adds) mixed = after;
+        if (share != 0.0f) result = withComponent(result, k, mixed);
     }
+    return result;
+}
+// Four morph weights of what is played.
+vec4 playedMorphWeights(uint first, uint quad) {
+    uvec4 header = state(first);
+    uint count = min(push.morphCount - 4u * quad, 4u);
+    SUPPLE_PRECISE vec4 pose = tableFloats(push.restWeights + quad);
+    uint i = 0u;
+    do { // see clip.h
+        if (i < header.x) {
+            Layer layer = layerAt(first + kStateElements + i * kLayerElements);
+            SUPPLE_PRECISE vec4 shares = vec4(layer.weight);
+            if (layer.mask != 0u) {
+                shares = shares * maskValues((layer.mask - 1u) * push.maskStride + (push.nodeCount + 3u) / 4u + quad);
+            }
+            if (shares != vec4(0.0f)) pose = withMorphLayer(layer, shares, quad, count, pose);
+        }
+        ++i;
+    } while (i < header.x);
     return pose;
 }
 

@@ -1,11 +1,5 @@
 // Sampling a packed clip (skinning/packed_clip.h), in the layout of shaders/shared/pose.h: no state and no search. Needs what
-// clip.h needs.
-
-uint wordAt(uvec4 v, uint k) {
-    uint low = (k & 1u) == 0u ? v.x : v.y, high = (k & 1u) == 0u ? v.z : v.w;
-    return (k & 2u) == 0u ? low : high;
-}
-uint packedWord(uint first, uint i) { return wordAt(table(first + i / 4u), i & 3u); }
+// clip.h needs, and `const bool kCoarseTwins`: whether some clip has a coarse twin.
 
 // 32 bits of two words, from bit `shift` of the first on, which is at most 31.
 uint bitsFrom(uint low, uint high, uint shift) { return (low >> shift) | ((high << 1u) << (31u - shift)); }
@@ -74,8 +68,8 @@ PackedPlace packedPlace(uint head, vec2 time) {
     place.at = packedTime(own, tableFloats(head + 2u).y, time);
     place.sections = table(head + 1u);
     place.segment = table(place.sections.z + place.at.segment);
-    // The twin has the same frames. A loop, so that lavapipe can leave it out.
-    for (uint twin = place.segment.w; twin != 0u; twin = 0u) {
+    uint twin = place.segment.w;
+    if (kCoarseTwins && twin != 0u) { // it has the same frames
         place.sections = table(twin + 1u);
         place.segment = table(place.sections.z + place.at.segment);
     }
@@ -180,7 +174,8 @@ vec4 packedTurn(PackedSpan span, uint own) {
 }
 
 vec3 packedConstant(uvec4 sections, uint constant) {
-    uint x = packedWord(sections.y, 2u * constant), y = packedWord(sections.y, 2u * constant + 1u);
+    uvec4 two = table(sections.y + constant / 2u);
+    uint x = (constant & 1u) == 0u ? two.x : two.z, y = (constant & 1u) == 0u ? two.y : two.w;
     float step = powerOfHalf(27 - 2 * int(y >> 28u));
     SUPPLE_PRECISE vec3 v =
         vec3(float(wholeOf(x)), float(wholeOf(x >> 20u | y << 12u)), float(wholeOf(y >> 8u))) * step;
@@ -192,25 +187,29 @@ Transform packedTransform(uint head, vec2 time, uint node, Transform rest) {
     PackedPlace place = packedPlace(head, time);
     PackedPaths own = packedPaths(place.sections, node);
     SUPPLE_PRECISE Transform t = rest;
-    for (uint paths = own.changing | own.constant; paths != 0u; paths &= paths - 1u) {
-        uint path = uint(findLSB(paths));
-        SUPPLE_PRECISE vec4 value = vec4(0.0f);
-        if (((own.changing >> path) & 1u) != 0u) {
-            uvec4 record = table(place.segment.x + own.property);
-            PackedSpan span = packedSpan(place, record, path == 1u);
-            value = vec4(packedVector(span), 0.0f);
-            if (path == 1u) value = packedTurn(span, record.y);
-            own.property += 1u;
-        } else {
-            SUPPLE_PRECISE vec3 v = packedConstant(place.sections, own.number);
-            value = vec4(v, 0.0f);
-            if (path == 1u) value = quarterTangentTurn(v);
-            own.number += 1u;
+    uint paths = own.changing | own.constant;
+    do { // see clip.h
+        if (paths != 0u) {
+            uint path = uint(findLSB(paths));
+            SUPPLE_PRECISE vec4 value = vec4(0.0f);
+            if (((own.changing >> path) & 1u) != 0u) {
+                uvec4 record = table(place.segment.x + own.property);
+                PackedSpan span = packedSpan(place, record, path == 1u);
+                value = vec4(packedVector(span), 0.0f);
+                if (path == 1u) value = packedTurn(span, record.y);
+                own.property += 1u;
+            } else {
+                SUPPLE_PRECISE vec3 v = packedConstant(place.sections, own.number);
+                value = vec4(v, 0.0f);
+                if (path == 1u) value = quarterTangentTurn(v);
+                own.number += 1u;
+            }
+            if (path == 0u) t.translation = vec3(value);
+            if (path == 1u) t.rotation = value;
+            if (path == 2u) t.scale = vec3(value);
+            paths &= paths - 1u;
         }
-        if (path == 0u) t.translation = vec3(value);
-        if (path == 1u) t.rotation = value;
-        if (path == 2u) t.scale = vec3(value);
-    }
+    } while (paths != 0u);
     return t;
 }
 
@@ -226,22 +225,25 @@ vec4 withComponent(vec4 v, uint k, float x) {
 vec4 packedWeights(uint head, vec2 time, uint quad, vec4 rest) {
     PackedPlace place = packedPlace(head, time);
     SUPPLE_PRECISE vec4 weights = rest;
-    uint end = (push.morphCount + 2u) / 3u;
-    for (uint three = 4u * quad / 3u; three < min(4u * quad / 3u + 2u, end); ++three) {
-        PackedPaths own = packedPaths(place.sections, push.nodeCount + three);
-        SUPPLE_PRECISE vec3 values = vec3(0.0f);
-        if (own.changing != 0u) {
-            values = packedVector(packedSpan(place, table(place.segment.x + own.property), false));
-        } else if (own.constant != 0u) {
-            values = packedConstant(place.sections, own.number);
-        }
-        uint count = (own.changing | own.constant) != 0u ? 3u : 0u;
-        for (uint k = 0u; k < count; ++k) {
-            uint target = 3u * three + k;
-            if (target / 4u == quad) {
-                weights = withComponent(weights, target & 3u, k == 0u ? values.x : k == 1u ? values.y : values.z);
+    uint three = 4u * quad / 3u, end = min(three + 2u, (push.morphCount + 2u) / 3u);
+    do { // see clip.h
+        if (three < end) {
+            PackedPaths own = packedPaths(place.sections, push.nodeCount + three);
+            SUPPLE_PRECISE vec3 values = vec3(0.0f);
+            if (own.changing != 0u) {
+                values = packedVector(packedSpan(place, table(place.segment.x + own.property), false));
+            } else if (own.constant != 0u) {
+                values = packedConstant(place.sections, own.number);
+            }
+            uint count = (own.changing | own.constant) != 0u ? 3u : 0u;
+            for (uint k = 0u; k < count; ++k) {
+                uint target = 3u * three + k;
+                if (target / 4u == quad) {
+                    weights = withComponent(weights, target & 3u, k == 0u ? values.x : k == 1u ? values.y : values.z);
+                }
             }
         }
-    }
+        ++three;
+    } while (three < end);
     return weights;
 }

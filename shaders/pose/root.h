@@ -42,28 +42,35 @@ RootFrame rootFrame(uint clip, vec2 time, uint root, uint axes, SUPPLE_INOUT(Tra
     frame.parent = identity();
     SUPPLE_PRECISE Affine own = identity();
     // The root first: one loop, so that the code is there once.
-    for (uint node = root; node != kNoNode; node = parentOf(node)) {
-        SUPPLE_PRECISE Transform t = clipTransform(clip, time, node);
-        SUPPLE_PRECISE Affine m = localMatrix(node, t);
-        if (node == root) {
-            local = t;
-            own = m;
-        } else {
-            frame.parent = combined(m, frame.parent);
+    uint node = root;
+    do { // see clip.h
+        if (node != kNoNode) {
+            SUPPLE_PRECISE Transform t = clipTransform(clip, time, node);
+            SUPPLE_PRECISE Affine m = localMatrix(node, t);
+            if (node == root) {
+                local = t;
+                own = m;
+            } else {
+                frame.parent = combined(m, frame.parent);
+            }
+            node = parentOf(node);
         }
-    }
+    } while (node != kNoNode);
     SUPPLE_PRECISE Affine global = combined(frame.parent, own);
     frame.position = vec3(global.x.w, global.y.w, global.z.w);
     frame.rotation = frame.parentRotation = vec4(0.0f, 0.0f, 0.0f, 1.0f);
     // A loop, so that the code is there once; only turns need it.
-    uint rotations = (axes & kYawAxis) != 0u ? 2u : 0u;
-    for (uint i = 0u; i < rotations; ++i) {
-        SUPPLE_PRECISE Affine m = global;
-        if (i != 0u) m = frame.parent;
-        SUPPLE_PRECISE vec4 rotation = rotationOf(m);
-        if (i == 0u) frame.rotation = rotation;
-        if (i != 0u) frame.parentRotation = rotation;
-    }
+    uint rotations = (axes & kYawAxis) != 0u ? 2u : 0u, i = 0u;
+    do { // see clip.h
+        if (i < rotations) {
+            SUPPLE_PRECISE Affine m = global;
+            if (i != 0u) m = frame.parent;
+            SUPPLE_PRECISE vec4 rotation = rotationOf(m);
+            if (i == 0u) frame.rotation = rotation;
+            if (i != 0u) frame.parentRotation = rotation;
+        }
+        ++i;
+    } while (i < rotations);
     return frame;
 }
 

@@ -25,16 +25,22 @@ void main() {
         storeLocal(locals + kAffineElements * header.z, shownTransform(first, header.z, root));
         if ((header.y & kStateTravels) != 0u) {
             // A loop, so that the code is there once: where it stands, then for steps the way alone.
-            for (uint way = 0u; way < (isStep() ? 2u : 1u); ++way) {
+            uint way = 0u, ways = isStep() ? 2u : 1u;
+            do { // see clip.h
                 precise Affine place = identity();
                 if (isPlaced() && way == 0u) place = transformOf(first);
                 uint rows = way == 0u ? kAffineElements * push.nodeCount : push.springScratch;
                 storePlace(locals + rows, travelled(first, place, sinceBegin));
-            }
+                ++way;
+            } while (way < ways);
         }
     }
-    for (uint foot = 0u; foot < push.footCount; ++foot) {
-        precise vec4 held = heldFoot(first, foot);
-        scratch.at[locals + kAffineElements * (push.nodeCount + 1u) + foot] = held;
-    }
+    uint foot = 0u;
+    do {
+        if (foot < push.footCount) {
+            precise vec4 held = heldFoot(first, foot);
+            scratch.at[locals + kAffineElements * (push.nodeCount + 1u) + foot] = held;
+        }
+        ++foot;
+    } while (foot < push.footCount);
 }

@@ -14,8 +14,14 @@ LOADED_BUFFER(vec4, maskValues, Masks, kMaskBinding, samplerBuffer, kMaskTexelBi
 vec4 tableFloats(uint i) { return uintBitsToFloat(table(i)); }
 vec4 stateFloats(uint i) { return uintBitsToFloat(state(i)); }
 
+layout(constant_id = kListedConstant) const bool kListed = true;
+layout(constant_id = kKeyedClipsConstant) const bool kKeyedClips = true;
+layout(constant_id = kPackedClipsConstant) const bool kPackedClips = true;
+layout(constant_id = kCoarseTwinsConstant) const bool kCoarseTwins = true;
+
 // What is posed: an entry of the group's list of instances, at the group's time; in groups with update rates one of a list of
 // their own, which says for which of the instance's ends, and at which time.
+bool isListed() { return kListed && push.times != 0u; }
 uint posedWord = 0u;
 uint posedEntry = 0u;
 vec2 posedSeconds = vec2(0.0);
@@ -23,16 +29,16 @@ void beginEntry(uint n) {
     posedEntry = n;
     posedWord = instanceEntry(n);
     posedSeconds = vec2(push.timeHigh, push.timeLow);
-    if (push.times != 0u) {
+    if (isListed()) {
         uint word = push.times + 2u * n;
         posedSeconds = uintBitsToFloat(uvec2(instanceWord(word), instanceWord(word + 1u)));
     }
 }
 uint posedSlot() { return slotOf(posedWord); }
-uint posedEnd() { return push.times != 0u ? SUPPLE_POSED_END(posedWord) : 0u; } // 0: what is shown
+uint posedEnd() { return isListed() ? SUPPLE_POSED_END(posedWord) : 0u; } // 0: what is shown
 uint firstOfEnd(uint slot, uint end) { return (slot * kPoseEnds + end - 1u) * push.endStride; }
 // Nobody sees it: a step of what swings.
-bool isStep() { return posedEntry >= push.shown; }
+bool isStep() { return kListed && posedEntry >= push.shown; }
 bool isShown() { return posedEnd() == 0u && !isStep(); }
 // Where the pose of one that is not shown begins.
 uint firstUnshown() {
@@ -41,7 +47,7 @@ uint firstUnshown() {
 bool stepsHavePoses() { return (push.stepNodes & kStepsHavePoses) != 0u; }
 // First element of what the instance plays.
 uint posedState() {
-    bool before = push.times != 0u && (posedWord & kPosedBefore) != 0u;
+    bool before = isListed() && (posedWord & kPosedBefore) != 0u;
     return posedSlot() * push.stateStride + (before ? push.stateBefore : 0u);
 }
 // Ends are in model space: mix.comp places them, as the host may move the instance while its ends stay.

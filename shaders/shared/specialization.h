@@ -34,6 +34,12 @@ SUPPLE_SHARED_CONST kSkinningConstant = 13u;        // kLinearSkinning, kDualQua
 SUPPLE_SHARED_CONST kWorkgroupRowsConstant = 14u;   // matrix rows that workgroup memory has room for
 SUPPLE_SHARED_CONST kRotationsConstant = 19u;       // bool: poses are rows and rotations, else rows alone
 
+// Poses: what no pose of a group asks for is left out. All bool.
+SUPPLE_SHARED_CONST kListedConstant = 21u;      // the group lists what is posed: ends and steps beside what is shown
+SUPPLE_SHARED_CONST kKeyedClipsConstant = 22u;  // some clip has channels of keys
+SUPPLE_SHARED_CONST kPackedClipsConstant = 23u; // some clip is packed
+SUPPLE_SHARED_CONST kCoarseTwinsConstant = 24u; // some packed clip has a coarse twin
+
 // Tangents.
 SUPPLE_SHARED_CONST kTangentsConstant = 15u; // bool: evaluation writes tangents
 SUPPLE_SHARED_CONST kSectorsConstant = 16u;  // bool: patches are sectors round a centre (P_m)

@@ -1,6 +1,7 @@
 // Packed clips on the device: the bits that the CPU has, whatever they are mixed with, also from a cooked file.
 #include "runtime/cooked/file.h"
 #include "skinning/clip_packer.h"
+#include "skinning/clip_table.h"
 #include "tests/support/crowd.h"
 #include "tests/support/played_group.h"
 #include "tests/support/read_character.h"
@@ -79,6 +80,61 @@ TEST_F(PackedOnGpu, HaveTheBitsOfTheCpuNarrow) {
 }
 TEST_F(PackedOnGpu, HaveTheBitsOfTheCpuWide) {
     expectTheBitsOfTheCpu(context(SUPPLE_MAPPING_WIDE));
+}
+
+/// The first clip packed, in part. The others have keys at uneven times, and of some nodes fewer channels.
+cage::Character inManyWays(const std::string& file) {
+    cage::Character character = readCharacter(file);
+    const std::vector<cage::Clip> plain = character.clips;
+    for (cage::Channel& channel : character.clips[0].channels) {
+        if (channel.node % 7 == 0) {
+            channel.interpolation = cage::Interpolation::step;
+        }
+    }
+    (void)skinning::packClips(character, kError);
+    for (size_t c = 1; c < plain.size(); ++c) {
+        cage::Clip& clip = character.clips[c] = plain[c];
+        std::erase_if(clip.channels, [&](const cage::Channel& channel) { return (channel.node + c) % 3 == 0; });
+        for (cage::Channel& channel : clip.channels) {
+            const auto duration = static_cast<float>(clip.duration);
+            for (float& time : channel.times) {
+                time = (channel.node + c) % 2 == 0 ? time : time * time / duration;
+            }
+        }
+    }
+    return character;
+}
+
+// Lanes side by side have other numbers of layers, of channels and of turns of a search.
+TEST_F(PackedOnGpu, StandBesideOtherClipsInAGroup) {
+    const cage::Character character = inManyWays(kWren);
+    const skinning::ClipKinds kinds = skinning::clipKinds(character);
+    ASSERT_TRUE(kinds.keyed && kinds.packed && !kinds.coarse);
+    const std::vector<std::byte> bytes = cooked(character, 0.0);
+    const auto clips = static_cast<uint32_t>(character.clips.size());
+    for (const SuppleMapping mapping : {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE}) {
+        CrowdContext& own = context(mapping);
+        const ValidationGuard guard;
+        ASSERT_TRUE(own.valid());
+        constexpr uint32_t kInstances = 19;
+        PlayedGroup stage(own, playedGroup(own.createAsset(bytes, "mixed"), kInstances, 0));
+        ASSERT_TRUE(stage.crowd.valid());
+        for (uint32_t i = 0; i < kInstances; ++i) {
+            std::vector<SupplePlaybackLayer> layers;
+            for (uint32_t k = 0; k < i * i % 5; ++k) {
+                layers.push_back(PlayedGroup::loops((i + k) % clips, 0.13 * i + 0.31 * k));
+                layers.back().weight = k == 0 ? 1.0f : 0.3f;
+                layers.back().flags = i % 4 == 0 ? 0 : uint32_t{SUPPLE_LAYER_LOOP};
+            }
+            stage.play(i, layers);
+        }
+        EXPECT_EQ(stage.run(0.4), 0u);
+        SupplePlaybackLayer added = PlayedGroup::loops(1, 0.2);
+        added.mode = SUPPLE_LAYER_ADDITIVE;
+        const SupplePlaybackLayer two[] = {PlayedGroup::loops(0, 0.5), added};
+        stage.play(4, two);
+        EXPECT_EQ(stage.run(1.7), 0u);
+    }
 }
 
 TEST(PackedFiles, AreReadAsTheyWereWritten) {
