@@ -211,6 +211,9 @@ public:
     /// surface after surface and instance after instance; waits for the device.
     [[nodiscard]] Result<std::vector<glm::vec3>> readSurface() const;
     [[nodiscard]] Result<std::vector<glm::vec3>> readCage() const;
+    /// Per joint of the first instance, what takes the bind pose to where it was posed last, with what swings; waits
+    /// for the device.
+    [[nodiscard]] Result<std::vector<glm::mat4>> readPalette() const;
     /// How much a joint moves each vertex of the surfaces, 0 to 1, as FigureSurface::values: the device evaluates the
     /// bind pose with the joint moved aside, and that is measured. Of a group of one instance whose poses are set;
     /// poses and frames are to be set anew. No frame may be pending.

@@ -4,7 +4,6 @@
 #include "cage/material_layers.h"
 #include "cage/obj/reader.h"
 #include "cage/polygons.h"
-#include "cage/skeleton.h"
 #include "tests/cage/gltf/builder.h"
 #include "tests/support/characters.h"
 
@@ -362,12 +361,12 @@ TEST(GltfWriter, SpringsComeBack) {
         node.name = "spring" + std::to_string(character.skeleton.nodes.size());
         node.parent = parent;
         node.translation = translation;
+        character.skeleton.parentsFirst.push_back(static_cast<uint32_t>(character.skeleton.nodes.size()));
         character.skeleton.nodes.push_back(node);
-        return static_cast<uint32_t>(character.skeleton.nodes.size() - 1);
+        return character.skeleton.parentsFirst.back();
     };
     const uint32_t top = springNode(0, {0, 1, 0}), middle = springNode(top, {0, 1, 0}),
                    end = springNode(middle, {1, 0, 0});
-    orderParentsFirst(character.skeleton);
     SpringBones& bones = character.springBones;
     SpringCollider capsule{.node = 0, .shape = ColliderShape::capsule};
     capsule.offset = {1.0f, 2.0f, 3.0f};
@@ -415,9 +414,9 @@ TEST(GltfWriter, BranchesOfVrm0BecomeChains) {
         node.name = "bone" + std::to_string(i);
         node.parent = parents[i];
         node.translation = {0.0f, 2.0f, 0.0f};
+        character.skeleton.parentsFirst.push_back(first + static_cast<uint32_t>(i));
         character.skeleton.nodes.push_back(node);
     }
-    orderParentsFirst(character.skeleton);
     Spring tree;
     tree.isTree = true;
     for (uint32_t i = 0; i < 4; ++i) {

@@ -30,6 +30,7 @@ struct Skeleton {
     Vec3 offset(int joint) const; // from the parent's rest position
 };
 
-Skeleton makeSkeleton(); // Pip's
+// Pip's. `ends`: with joints where ears and tail end, for springs.
+Skeleton makeSkeleton(bool ends);
 
 } // namespace supple::creature

@@ -23,11 +23,17 @@ public:
 
     // A group of them; returns its number.
     uint32_t addColliders(const std::vector<Capsule>& capsules);
-    // The chain of a name, which ends at the joint "nameEnd". Each joint is by `softer` less stiff than the one before.
-    void add(const std::string& name, const std::vector<uint32_t>& colliderGroups, const cage::SpringJoint& first,
-             float softer);
+    // A plane that goes with a joint, at a place of the model at rest: nothing of the group's springs gets behind it.
+    void addPlane(uint32_t group, const std::string& joint, const Vec3& at, const Vec3& normal);
+    // A chain of joints, of which the last one is an end alone. Each has `softer` times the stiffness of the one before.
+    void add(const std::string& name, const std::vector<std::string>& joints,
+             const std::vector<uint32_t>& colliderGroups, const cage::SpringJoint& first, float softer);
 
 private:
+    cage::SpringCollider& addCollider(uint32_t group, const std::string& joint, cage::ColliderShape shape,
+                                      const Vec3& at);
+    Vec3 restOf(const std::string& joint) const;
+
     const Skeleton& skeleton;
     cage::SpringBones& bones;
 };

@@ -1,4 +1,4 @@
-// supple_wren [--springs] OUT.glb: makes the second sample character, always to the same bytes.
+// supple_wren [--moving] OUT.glb: makes the second sample character, always to the same bytes.
 
 #include "wren_assemble.h"
 #include "wren_clips.h"
@@ -47,9 +47,9 @@ std::vector<wren::Piece> pieces() {
 } // namespace
 
 int main(int argc, char** argv) {
-    const bool springs = argc == 3 && std::strcmp(argv[1], "--springs") == 0;
-    if (argc != 2 && !springs) {
-        std::fprintf(stderr, "usage: supple_wren [--springs] OUT.glb\n");
+    const bool moving = argc == 3 && std::strcmp(argv[1], "--moving") == 0;
+    if (argc != 2 && !moving) {
+        std::fprintf(stderr, "usage: supple_wren [--moving] OUT.glb\n");
         return 2;
     }
     const char* path = argv[argc - 1];
@@ -65,9 +65,9 @@ int main(int argc, char** argv) {
             quads += face.points.size() == 4;
         }
     }
-    const Skeleton skeleton = wren::makeSkeleton(springs);
+    const Skeleton skeleton = wren::makeSkeleton(moving);
     supple::cage::Character character = wren::assemble(made, skeleton, wren::makeClips(skeleton));
-    if (springs) {
+    if (moving) {
         wren::addSprings(skeleton, character);
     }
     const auto file = supple::cage::writeGlb(character);

@@ -61,6 +61,10 @@ void bindShown(CLI::App& command, DrawOptions& draw) {
         ->type_name("NAME|INDEX")
         ->capture_default_str();
     command.add_flag("--cage,!--no-cage", draw.cageOverlay, "Draw the cage's edges over the surface");
+    command.add_flag("--springs", draw.soft.springs,
+                     "Draw chains of joints that swing, and how far they stay from colliders");
+    command.add_flag("--colliders", draw.soft.colliders, "Draw what springs and cloth do not enter");
+    command.add_flag("--painted", draw.soft.painted, "Dot the vertices of the cage that jiggle or are cloth");
     command.add_flag("--ground,!--no-ground", draw.ground, "A floor that takes shadows (on unless --no-ground)");
     command.add_flag("--legend,!--no-legend", draw.legend,
                      "What the view's colors stand for, in the picture's corner (on unless --no-legend)");
