@@ -184,6 +184,8 @@ public:
     [[nodiscard]] bool hasLevels() const { return levels_ != nullptr; }
     /// GroupOptions::plays.
     [[nodiscard]] bool plays() const { return plays_; }
+    /// GroupOptions::springs.
+    [[nodiscard]] bool swings() const { return swings_; }
     /// Groups with levels, before they are recorded: levels are chosen for a picture of this height from this camera,
     /// so that edges lie within `chordError` pixels of their curves.
     [[nodiscard]] Status setLevelCamera(const Camera& camera, uint32_t height, float chordError);
@@ -237,6 +239,7 @@ private:
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
     bool plays_ = false;
+    bool swings_ = false;
     std::vector<bool> visible_; ///< per instance
     std::vector<bool> visibleParts_;
     std::vector<FigureSurface> surfaces_;

@@ -119,6 +119,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
         desc.flags |= SUPPLE_GROUP_TRANSITIONS;
         desc.flags |= options.springs ? SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT : 0;
         group->plays_ = true;
+        group->swings_ = options.springs;
     }
     desc.asset = figure.asset();
     desc.capacity = options.instances;

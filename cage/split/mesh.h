@@ -80,7 +80,7 @@ struct Mesh {
     VertexWeights weights;
     VertexMorphs morphs;
     std::vector<Jiggle> jiggles;
-    std::vector<Cloth> cloths; ///< with colliders by the numbers of the file
+    std::vector<Cloth> cloths;         ///< with colliders by the numbers of the file
     SkinWeights painted;               ///< per vertex; without influences
     std::vector<uint32_t> cageNumbers; ///< per vertex, where the source numbers cage vertices; else empty
     WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers

@@ -19,7 +19,7 @@ void addMoving(const Cage& model, const Skeleton& skeleton, cage::Character& cha
     }
     std::vector<std::string> tail = skeleton.links("tail").joints;
     tail.push_back("tailEnd");
-    springs.add("tail", tail, {ground}, {.hitRadius = 0.05f, .stiffness = 1.6f, .gravityPower = 0.1f, .drag = 0.2f},
+    springs.add("tail", tail, {ground}, {.hitRadius = 0.05f, .stiffness = 2.0f, .gravityPower = 0.1f, .drag = 0.25f},
                 0.85f);
     character.jiggles = {{.frequency = 2.8f, .damping = 0.15f, .limit = 0.06f}};
     for (const Point& point : model.points) {

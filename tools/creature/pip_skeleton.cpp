@@ -64,8 +64,7 @@ Skeleton makeSkeleton(bool ends) {
     if (ends) {
         add("earEnd.L", "earTip.L", kEarTip, kEarTip);
         add("earEnd.R", "earTip.R", flipped(kEarTip), flipped(kEarTip));
-        add("tailEnd", "tail7", kTail[kTailJoints],
-            kTail[kTailJoints]);
+        add("tailEnd", "tail7", kTail[kTailJoints], kTail[kTailJoints]);
     }
     return skeleton;
 }

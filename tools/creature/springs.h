@@ -25,7 +25,8 @@ public:
     uint32_t addColliders(const std::vector<Capsule>& capsules);
     // A plane that goes with a joint, at a place of the model at rest: nothing of the group's springs gets behind it.
     void addPlane(uint32_t group, const std::string& joint, const Vec3& at, const Vec3& normal);
-    // A chain of joints, of which the last one is an end alone. Each has `softer` times the stiffness of the one before.
+    // A chain of joints, of which the last one is an end alone. Each has `softer` times the stiffness of the one
+    // before.
     void add(const std::string& name, const std::vector<std::string>& joints,
              const std::vector<uint32_t>& colliderGroups, const cage::SpringJoint& first, float softer);
 

@@ -140,10 +140,13 @@ void bindTrace(CLI::App& command, DrawOptions& draw) {
         trace->excludes(command.get_option(other));
 }
 
+/// Behind bindDraw().
 void bindAlpha(CLI::App& command, DrawOptions& draw) {
     const HelpGroup heading(command, "What is shown");
-    command.add_flag("--alpha", draw.alpha,
-                     "Nothing behind the figure: its shadow on the floor is drawn, the backdrop is not");
+    CLI::Option* alpha = command.add_flag(
+        "--alpha", draw.alpha, "Nothing behind the figure: its shadow on the floor is drawn, the backdrop is not");
+    for (const char* other : {"--springs", "--colliders", "--painted"})
+        alpha->excludes(command.get_option(other));
 }
 
 } // namespace
@@ -169,8 +172,8 @@ void bindAnimate(CLI::App& app, int& exitCode) {
     command->add_option("--quality", options->quality, "Of a WebP; 100 keeps every bit")
         ->check(CLI::Range(0.0f, 100.0f))
         ->capture_default_str();
-    bindAlpha(*command, options->draw);
     bindDraw(*command, options->draw);
+    bindAlpha(*command, options->draw);
     bindLooks(*command, options->draw);
     bindTransition(*command, options->draw.transition);
     bindSimulate(*command, options->draw.simulate);
@@ -193,9 +196,9 @@ void bindRender(CLI::App& app, int& exitCode) {
     command->add_option("--size", options->size, "Of the picture; with --scheme all of each")
         ->check(sizeValidator())
         ->capture_default_str();
-    bindAlpha(*command, options->draw);
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
+    bindAlpha(*command, options->draw);
     bindLooks(*command, options->draw);
     bindTrace(*command, options->draw);
     bindCamera(*command, *options);

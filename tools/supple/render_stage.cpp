@@ -314,8 +314,7 @@ void Stage::drawLegendOf(uint32_t view, host::Picture& picture) const {
 }
 
 Status Stage::drawSoft(const host::Scene& scene, host::Picture& picture) const {
-    const Result<std::vector<Stroke>> strokes =
-        softStrokes(softFacts_, levels_ ? *levels_ : *group_, options_.soft);
+    const Result<std::vector<Stroke>> strokes = softStrokes(softFacts_, levels_ ? *levels_ : *group_, options_.soft);
     if (!strokes)
         return strokes.error();
     const float aspect = static_cast<float>(picture.width) / static_cast<float>(picture.height);

@@ -11,14 +11,15 @@ namespace supple::tools {
 
 namespace {
 
-using Color = std::array<uint8_t, 3>;
+using StrokeColor = std::array<uint8_t, 3>;
 
-constexpr Color kSpring{255, 196, 64}, kTail{255, 255, 255}, kCollider{90, 220, 255}, kInside{255, 120, 220};
-constexpr Color kLight{40, 40, 60}, kJiggle{255, 110, 40}, kCloth{120, 255, 90};
+constexpr StrokeColor kSpring{255, 196, 64}, kTail{255, 255, 255}, kCollider{90, 220, 255},
+    kInsideCollider{255, 120, 220};
+constexpr StrokeColor kLight{40, 40, 60}, kJiggle{255, 110, 40}, kCloth{120, 255, 90};
 constexpr int kCircleSides = 24;
 
-Color mixed(const Color& from, const Color& to, float share) {
-    Color color{};
+StrokeColor mixedColor(const StrokeColor& from, const StrokeColor& to, float share) {
+    StrokeColor color{};
     for (size_t k = 0; k < 3; ++k)
         color[k] = static_cast<uint8_t>(std::lround(from[k] + (to[k] - from[k]) * share));
     return color;
@@ -53,10 +54,12 @@ private:
 
 class Strokes {
 public:
-    void line(const glm::vec3& from, const glm::vec3& to, const Color& color) { all.push_back({from, to, color}); }
-    void dot(const glm::vec3& at, const Color& color) { line(at, at, color); }
+    void line(const glm::vec3& from, const glm::vec3& to, const StrokeColor& color) {
+        all.push_back({from, to, color});
+    }
+    void dot(const glm::vec3& at, const StrokeColor& color) { line(at, at, color); }
     /// A circle about `middle`, with radii that stand on each other.
-    void circle(const glm::vec3& middle, const glm::vec3& a, const glm::vec3& b, const Color& color) {
+    void circle(const glm::vec3& middle, const glm::vec3& a, const glm::vec3& b, const StrokeColor& color) {
         glm::vec3 before = middle + a;
         for (int k = 1; k <= kCircleSides; ++k) {
             const float angle = 2.0f * glm::pi<float>() * static_cast<float>(k) / kCircleSides;
@@ -65,13 +68,13 @@ public:
             before = next;
         }
     }
-    void sphere(const glm::vec3& middle, float radius, const Color& color) {
+    void sphere(const glm::vec3& middle, float radius, const StrokeColor& color) {
         const glm::vec3 x(radius, 0.0f, 0.0f), y(0.0f, radius, 0.0f), z(0.0f, 0.0f, radius);
         circle(middle, x, y, color);
         circle(middle, y, z, color);
         circle(middle, z, x, color);
     }
-    void capsule(const glm::vec3& from, const glm::vec3& to, float radius, const Color& color) {
+    void capsule(const glm::vec3& from, const glm::vec3& to, float radius, const StrokeColor& color) {
         sphere(from, radius, color);
         if (!(glm::distance(from, to) > 1e-6f))
             return;
@@ -80,7 +83,7 @@ public:
         for (const glm::vec3& side : {a, -a, b, -b})
             line(from + radius * side, to + radius * side, color);
     }
-    void plane(const glm::vec3& at, const glm::vec3& normal, float extent, const Color& color) {
+    void plane(const glm::vec3& at, const glm::vec3& normal, float extent, const StrokeColor& color) {
         const auto [a, b] = across(normal);
         for (int k = -2; k <= 2; ++k) {
             const float place = 0.5f * extent * static_cast<float>(k);
@@ -105,9 +108,9 @@ void addSprings(const SoftFacts& facts, const Nodes& nodes, Strokes& strokes) {
         for (size_t j = 0; j < spring.joints.size(); ++j) {
             const cage::SpringJoint& joint = spring.joints[j];
             const glm::vec3 at(nodes.placeOf(joint.node)[3]);
-            const uint32_t above = j > 0 ? spring.isTree ? facts.skeleton.nodes[joint.node].parent
-                                                         : spring.joints[j - 1].node
-                                         : cage::kNone;
+            const uint32_t above =
+                j > 0 ? spring.isTree ? facts.skeleton.nodes[joint.node].parent : spring.joints[j - 1].node
+                      : cage::kNone;
             if (above != cage::kNone) {
                 strokes.line(glm::vec3(nodes.placeOf(above)[3]), at, kSpring);
                 if (const float radius = spring.joints[j - 1].hitRadius; radius > 0.0f)
@@ -123,7 +126,7 @@ void addColliders(const SoftFacts& facts, const Nodes& nodes, float extent, Stro
     for (const cage::SpringCollider& collider : facts.springBones.colliders) {
         const glm::mat4 place = nodes.placeOf(collider.node);
         const glm::vec3 at(place * glm::vec4(collider.offset, 1.0f));
-        const Color& color = collider.inside ? kInside : kCollider;
+        const StrokeColor& color = collider.inside ? kInsideCollider : kCollider;
         if (collider.shape == cage::ColliderShape::plane) {
             const glm::vec3 normal = glm::mat3(place) * collider.tail;
             if (glm::length(normal) > 1e-6f)
@@ -136,22 +139,23 @@ void addColliders(const SoftFacts& facts, const Nodes& nodes, float extent, Stro
     }
 }
 
-void addPainted(const std::vector<cage::PaintedWeight>& weights, const std::vector<glm::vec3>& cage, const Color& color,
-                Strokes& strokes) {
+void addPainted(const std::vector<cage::PaintedWeight>& weights, const std::vector<glm::vec3>& cage,
+                const StrokeColor& color, Strokes& strokes) {
     for (size_t v = 0; v < weights.size() && v < cage.size(); ++v) {
         if (weights[v].index != cage::kNone)
-            strokes.dot(cage[v], mixed(kLight, color, weights[v].weight));
+            strokes.dot(cage[v], mixedColor(kLight, color, weights[v].weight));
     }
 }
 
 /// Lays a color over a pixel.
-void blend(uint8_t* pixel, const Color& color, float share) {
+void blendPixel(uint8_t* pixel, const StrokeColor& color, float share) {
     for (size_t k = 0; k < 3; ++k)
         pixel[k] = static_cast<uint8_t>(std::lround(pixel[k] + (color[k] - pixel[k]) * share));
 }
 
 /// A line with round ends, of a width in pixels.
-void drawLine(host::Picture& picture, const glm::vec2& from, const glm::vec2& to, float width, const Color& color) {
+void drawStroke(host::Picture& picture, const glm::vec2& from, const glm::vec2& to, float width,
+                const StrokeColor& color) {
     const float reach = 0.5f * width + 1.0f;
     const glm::vec2 size(static_cast<float>(picture.width), static_cast<float>(picture.height));
     const glm::vec2 low = glm::clamp(glm::min(from, to) - reach, glm::vec2(0.0f), size),
@@ -164,7 +168,7 @@ void drawLine(host::Picture& picture, const glm::vec2& from, const glm::vec2& to
             const float t = squared > 0.0f ? std::clamp(glm::dot(at, way) / squared, 0.0f, 1.0f) : 0.0f;
             const float covered = std::clamp(0.5f * width + 0.5f - glm::length(at - t * way), 0.0f, 1.0f);
             if (covered > 0.0f)
-                blend(picture.pixel(x, y), color, 0.9f * covered);
+                blendPixel(picture.pixel(x, y), color, 0.9f * covered);
         }
     }
 }
@@ -208,14 +212,15 @@ std::vector<SoftKey> softKeys(const SoftFacts& facts, const SoftShown& shown) {
     };
     const std::vector<cage::SpringCollider>& colliders = facts.springBones.colliders;
     if (shown.springs) {
-        keys.push_back(facts.springBones.springs.empty() ? SoftKey{kSpring, "no springs"} : SoftKey{kSpring, "springs"});
+        keys.push_back(facts.springBones.springs.empty() ? SoftKey{kSpring, "no springs"}
+                                                         : SoftKey{kSpring, "springs"});
         if (!facts.springBones.springs.empty())
             keys.push_back({kTail, "hit radius"});
     }
     if (shown.colliders) {
         keys.push_back({kCollider, colliders.empty() ? "no colliders" : "colliders"});
         if (std::any_of(colliders.begin(), colliders.end(), [](const auto& collider) { return collider.inside; }))
-            keys.push_back({kInside, "colliders that keep inside"});
+            keys.push_back({kInsideCollider, "colliders that keep inside"});
     }
     if (shown.painted && has(facts.jiggles))
         keys.push_back({kJiggle, "jiggles; darker: less weight"});
@@ -237,7 +242,7 @@ void drawStrokes(host::Picture& picture, const std::vector<Stroke>& strokes, con
         const auto place = [&](const glm::vec4& at) {
             return size * glm::vec2(0.5f + 0.5f * at.x / at.w, 0.5f - 0.5f * at.y / at.w);
         };
-        drawLine(picture, place(from), place(to), (stroke.from == stroke.to ? 4.5f : 1.5f) * scale, stroke.color);
+        drawStroke(picture, place(from), place(to), (stroke.from == stroke.to ? 4.5f : 1.5f) * scale, stroke.color);
     }
     const uint32_t letters = picture.height < 400 ? 1 : 2, line = 12 * letters;
     if (picture.width < 200)
@@ -245,7 +250,7 @@ void drawStrokes(host::Picture& picture, const std::vector<Stroke>& strokes, con
     for (size_t k = 0; k < keys.size(); ++k) {
         const uint32_t y = 8 + static_cast<uint32_t>(k) * line;
         const float middle = static_cast<float>(y) + 5.0f * static_cast<float>(letters);
-        drawLine(picture, {12.0f, middle}, {12.0f, middle}, 7.0f * static_cast<float>(letters), keys[k].color);
+        drawStroke(picture, {12.0f, middle}, {12.0f, middle}, 7.0f * static_cast<float>(letters), keys[k].color);
         picture.drawText(16 + 6 * letters, y, keys[k].text, letters, {255, 255, 255});
     }
 }
