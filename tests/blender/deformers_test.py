@@ -200,6 +200,11 @@ class Deformers(unittest.TestCase):
         tower = next(m for m in self.json["meshes"] if m["name"] == "tower")
         self.assertEqual(tower["extensions"]["SUPPLE_deformers"]["skinning"], "dualQuaternion")
 
+    def test_sampled_bones_are_as_they_were(self):
+        arm = bpy.data.objects["rig"].pose.bones["arm"]
+        self.assertEqual(arm.rotation_euler[:], (0, 0, 0))
+        self.assertEqual(bpy.data.objects["tower"].data.shape_keys.key_blocks["bulge"].value, 0)
+
     def test_springs_and_colliders_stand_at_their_bones(self):
         bones = self.json["extensions"]["VRMC_springBone"]
         joints = bones["springs"][0]["joints"]

@@ -21,7 +21,10 @@ void addSprings(const Skeleton& skeleton, cage::Character& character) {
         {"head", {0, 1.62, -0.035}, {0, 1.55, -0.035}, 0.135},
         {"neck", {0, 1.33, -0.010}, {0, 1.27, -0.012}, 0.085},
     });
-    const uint32_t leg = springs.addColliders({{"thigh.R", kThigh * right, kKnee * right, 0.085}});
+    const uint32_t legAndHand = springs.addColliders({
+        {"thigh.R", kThigh * right, kKnee * right, 0.085},
+        {"hand.R", kWrist * right, kKnuckles * right, 0.050},
+    });
     const auto add = [&](const std::string& name, const std::vector<uint32_t>& colliders,
                          const cage::SpringJoint& first, float softer) {
         std::vector<std::string> joints = skeleton.links(name).joints;
@@ -32,7 +35,7 @@ void addSprings(const Skeleton& skeleton, cage::Character& character) {
     add("ponytail", {skull, back}, {.hitRadius = 0.03f, .stiffness = 0.9f, .gravityPower = 0.16f, .drag = 0.22f}, 0.6f);
     add("scarf", {back}, {.hitRadius = 0.018f, .stiffness = 0.16f, .gravityPower = 0.16f, .drag = 0.14f}, 0.6f);
     for (const Pouch& pouch : kPouches) {
-        add(pouch.name, {leg}, {.hitRadius = 0.03f, .stiffness = 1.2f, .gravityPower = 0.16f, .drag = 0.18f}, 1.0f);
+        add(pouch.name, {legAndHand}, {.hitRadius = 0.03f, .stiffness = 1.2f, .gravityPower = 0.16f, .drag = 0.18f}, 1.0f);
     }
 }
 

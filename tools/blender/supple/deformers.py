@@ -46,16 +46,17 @@ class Deformers:
         if sampled and mesh.weights:
             own = drivers.MeshDrivers(blender_object.data, sampled, mesh.weights)
             members["drivers"] = own.members()
-            self._drivers.append((node, members, own))
+            self._drivers.append((mesh, members, own))
         if members:
             mesh.extensions = {**(mesh.extensions or {}), soft.EXTENSION: gltf_io.extension(soft.EXTENSION, members)}
 
     def still_animations(self, animations):
         """The exporter writes what drivers set into clips; Supple's own would come on top."""
-        owners = {id(node): own for node, _, own in self._drivers}
+        owners = {id(mesh): own for mesh, _, own in self._drivers}
         for animation in animations:
             for channel in animation.channels:
-                own = owners.get(id(channel.target.node)) if channel.target.path == "weights" else None
+                mesh = getattr(channel.target.node, "mesh", None)
+                own = owners.get(id(mesh)) if channel.target.path == "weights" else None
                 if own is not None:
                     sampler = animation.samplers[channel.sampler]
                     weights = gltf_io.written_values(sampler.output).astype("<f4").reshape(-1, own.target_count)

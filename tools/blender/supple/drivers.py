@@ -12,6 +12,7 @@ from . import gltf_io
 # Angles of samples about one or two axes, and about three: a driver has 64 poses at most.
 STEPS = {1: (15.0, 165.0), 2: (15.0, 165.0), 3: (22.5, 157.5)}
 AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+CHANNELS = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
 MOST_INPUTS, MOST_POSES, MOST_TARGETS = 4, 64, 8
 FLAT = 1e-4
 
@@ -65,11 +66,13 @@ class _Poser:
     def values(self, bone=None, turn=None):
         if bone is None:
             return self._read()
-        before = bone.matrix_basis.copy()
-        place, rotation, scale = before.decompose()
+        # Not the matrix: from it, an angle beyond 180 degrees would come back as another one.
+        before = {name: getattr(bone, name)[:] for name in CHANNELS}
+        place, rotation, scale = bone.matrix_basis.decompose()
         bone.matrix_basis = Matrix.LocRotScale(place, rotation @ turn, scale)
         found = self._read()
-        bone.matrix_basis = before
+        for name, values in before.items():
+            setattr(bone, name, values)
         return found
 
     def _read(self):
