@@ -160,6 +160,11 @@ TEST_F(Convert, KeepsSprings) {
     const supple::cage::SpringBones pip = convert(kPip, supple::test::kPipSprings);
     EXPECT_EQ(pip.springs.size(), 3u) << "a tail and two ears";
     EXPECT_EQ(pip.colliders.size(), 1u);
+    for (const std::string name : {"springs", "again"}) {
+        const std::string bake = "bake " + name + ".glb -o " + name + ".obj --scheme cage --clip walk --time 1";
+        ASSERT_EQ(runOnDevice(bake + " --simulate 1").exitCode, 0);
+    }
+    EXPECT_EQ(vertices(file("springs.obj")), vertices(file("again.obj"))) << "chains swing as trees do";
 }
 
 TEST_F(Convert, OtherSubcommandsOpenObjToo) {
