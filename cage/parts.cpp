@@ -5,6 +5,7 @@
 #include "cage/piece.h"
 #include "cage/sharp_features.h"
 #include "cage/triangulation.h"
+#include "cage/vertex_weights.h"
 
 #include <algorithm>
 #include <cstring>
@@ -260,16 +261,11 @@ void takeTargets(const Character& character, size_t index, std::span<const uint3
     }
 }
 
-/// What is painted on a part's vertices, in the order of the character's.
+/// Of all that a character has painted, what `weights` name: in the same order, and so they name it.
 template <class T>
-void takePainted(const std::vector<PaintedWeight>& allWeights, const std::vector<T>& all,
-                 std::span<const uint32_t> vertices, std::vector<PaintedWeight>& weights, std::vector<T>& taken) {
-    if (allWeights.empty()) {
-        return;
-    }
+void takePainted(const std::vector<T>& all, std::vector<PaintedWeight>& weights, std::vector<T>& taken) {
     std::vector<uint32_t> places(all.size(), kNone);
-    for (const uint32_t v : vertices) {
-        const PaintedWeight& own = weights.emplace_back(allWeights[v]);
+    for (const PaintedWeight& own : weights) {
         if (own.index != kNone) {
             places[own.index] = 0;
         }
@@ -407,19 +403,10 @@ Character takePart(const Character& character, size_t index) {
     taken.cage = std::move(piece.cage);
     taken.weights.starts.push_back(0);
     for (const uint32_t v : piece.vertices) {
-        const auto& influences = character.weights.influences;
-        taken.weights.influences.insert(taken.weights.influences.end(),
-                                        influences.begin() + character.weights.starts[v],
-                                        influences.begin() + character.weights.starts[v + 1]);
-        taken.weights.starts.push_back(static_cast<uint32_t>(taken.weights.influences.size()));
+        appendVertex(character.weights, v, taken.weights);
     }
-    takePainted(character.weights.jiggles, character.jiggles, piece.vertices, taken.weights.jiggles, taken.jiggles);
-    takePainted(character.weights.cloths, character.cloths, piece.vertices, taken.weights.cloths, taken.cloths);
-    for (const uint32_t v : piece.vertices) {
-        if (!character.weights.mushMask.empty()) {
-            taken.weights.mushMask.push_back(character.weights.mushMask[v]);
-        }
-    }
+    takePainted(character.jiggles, taken.weights.jiggles, taken.jiggles);
+    takePainted(character.cloths, taken.weights.cloths, taken.cloths);
     std::vector<uint32_t> places(character.cage.vertexCount(), kNone);
     for (uint32_t v = 0; v < piece.vertices.size(); ++v) {
         places[piece.vertices[v]] = v;

@@ -4,6 +4,7 @@
 #include "cage/polygons.h"
 #include "cage/sharp_features.h"
 #include "cage/sound_faces.h"
+#include "cage/vertex_weights.h"
 #include "cage/weld.h"
 
 #include <algorithm>
@@ -243,19 +244,7 @@ void mergeVertices(std::span<const uint32_t> roots, Character& character) {
         cage.positions[kept] = cage.positions[v];
         cage.sourceVertices[kept] = cage.sourceVertices[v];
         ++kept;
-        for (uint32_t i = character.weights.starts[v]; i < character.weights.starts[v + 1]; ++i) {
-            weights.influences.push_back(character.weights.influences[i]);
-        }
-        weights.starts.push_back(static_cast<uint32_t>(weights.influences.size()));
-        if (!character.weights.jiggles.empty()) {
-            weights.jiggles.push_back(character.weights.jiggles[v]);
-        }
-        if (!character.weights.cloths.empty()) {
-            weights.cloths.push_back(character.weights.cloths[v]);
-        }
-        if (!character.weights.mushMask.empty()) {
-            weights.mushMask.push_back(character.weights.mushMask[v]);
-        }
+        appendVertex(character.weights, v, weights);
     }
     cage.positions.resize(kept);
     cage.sourceVertices.resize(kept);

@@ -11,6 +11,24 @@ constexpr double kFloatRounding = 1.0 / (1u << 24);
 
 } // namespace
 
+void appendPainted(const SkinWeights& from, uint32_t vertex, SkinWeights& into) {
+    const auto append = [vertex](const auto& list, auto& to) {
+        if (!list.empty()) {
+            to.push_back(list[vertex]);
+        }
+    };
+    append(from.jiggles, into.jiggles);
+    append(from.cloths, into.cloths);
+    append(from.mushMask, into.mushMask);
+}
+
+void appendVertex(const SkinWeights& from, uint32_t vertex, SkinWeights& into) {
+    const auto begin = from.influences.begin();
+    into.influences.insert(into.influences.end(), begin + from.starts[vertex], begin + from.starts[vertex + 1]);
+    into.starts.push_back(static_cast<uint32_t>(into.influences.size()));
+    appendPainted(from, vertex, into);
+}
+
 void VertexWeights::appendUnskinned(size_t count, uint32_t joint) {
     for (size_t v = 0; v < count; ++v) {
         influences_.push_back({joint, 1.0f});

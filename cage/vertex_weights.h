@@ -12,6 +12,12 @@
 
 namespace supple::cage {
 
+/// Appends what is painted on a vertex of `from`, which has vertices of its own: its jiggle, its cloth and its mask.
+/// Lists that `from` lacks stay as they are.
+void appendPainted(const SkinWeights& from, uint32_t vertex, SkinWeights& into);
+/// The same behind the influences of the vertex. `into` has its first start.
+void appendVertex(const SkinWeights& from, uint32_t vertex, SkinWeights& into);
+
 /// The influences of vertices that are appended one after the other: by joint, normalised, at least one a vertex.
 class VertexWeights {
 public:

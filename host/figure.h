@@ -184,6 +184,8 @@ public:
     [[nodiscard]] bool hasLevels() const { return levels_ != nullptr; }
     /// GroupOptions::plays.
     [[nodiscard]] bool plays() const { return plays_; }
+    /// GroupOptions::springs.
+    [[nodiscard]] bool swings() const { return swings_; }
     /// Groups with levels, before they are recorded: levels are chosen for a picture of this height from this camera,
     /// so that edges lie within `chordError` pixels of their curves.
     [[nodiscard]] Status setLevelCamera(const Camera& camera, uint32_t height, float chordError);
@@ -211,6 +213,9 @@ public:
     /// surface after surface and instance after instance; waits for the device.
     [[nodiscard]] Result<std::vector<glm::vec3>> readSurface() const;
     [[nodiscard]] Result<std::vector<glm::vec3>> readCage() const;
+    /// Per joint of the first instance, what takes the bind pose to where it was posed last, with what swings; waits
+    /// for the device.
+    [[nodiscard]] Result<std::vector<glm::mat4>> readPalette() const;
     /// How much a joint moves each vertex of the surfaces, 0 to 1, as FigureSurface::values: the device evaluates the
     /// bind pose with the joint moved aside, and that is measured. Of a group of one instance whose poses are set;
     /// poses and frames are to be set anew. No frame may be pending.
@@ -234,6 +239,7 @@ private:
     SuppleGroup group_{};
     std::vector<SuppleInstance> instances_;
     bool plays_ = false;
+    bool swings_ = false;
     std::vector<bool> visible_; ///< per instance
     std::vector<bool> visibleParts_;
     std::vector<FigureSurface> surfaces_;

@@ -119,6 +119,7 @@ Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const G
         desc.flags |= SUPPLE_GROUP_TRANSITIONS;
         desc.flags |= options.springs ? SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT : 0;
         group->plays_ = true;
+        group->swings_ = options.springs;
     }
     desc.asset = figure.asset();
     desc.capacity = options.instances;
@@ -347,6 +348,30 @@ Result<std::vector<glm::vec3>> FigureGroup::readCage() const {
         return bytes.error();
     return positionsOf(*bytes, info.deformedCage.stride, info.capacity, info.cageVerticesPerInstance,
                        info.cageVertexCount);
+}
+
+Result<std::vector<glm::mat4>> FigureGroup::readPalette() const {
+    const SuppleGroupInfo& info = surfaces_.front().output.info;
+    Result<std::vector<std::byte>> bytes = figure_.context().device().readBuffer(info.poses);
+    if (!bytes)
+        return bytes.error();
+    const auto rowsAt = [&](size_t first) {
+        glm::mat4 matrix(1.0f);
+        for (int row = 0; row < 3; ++row) {
+            glm::vec4 read;
+            std::memcpy(&read, bytes->data() + first + 16 * static_cast<size_t>(row), sizeof read);
+            for (int column = 0; column < 4; ++column)
+                matrix[column][row] = read[column];
+        }
+        return matrix;
+    };
+    const bool linear = info.skinning == SUPPLE_SKINNING_LINEAR;
+    const size_t each = linear ? 48 : 64, first = linear ? 0 : 48;
+    const glm::mat4 transform = linear ? glm::mat4(1.0f) : rowsAt(0);
+    std::vector<glm::mat4> palette(figure_.jointNames().size());
+    for (size_t j = 0; j < palette.size(); ++j)
+        palette[j] = transform * rowsAt(first + each * j);
+    return palette;
 }
 
 } // namespace supple::host

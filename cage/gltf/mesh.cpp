@@ -108,8 +108,8 @@ public:
         SoftReader::Lists soft = std::move(soft_).finish(document_);
         out_.jiggles = std::move(soft.jiggles);
         out_.cloths = std::move(soft.cloths);
-        out_.jiggleWeights = std::move(soft.jiggleWeights);
-        out_.clothWeights = std::move(soft.clothWeights);
+        out_.painted.jiggles = std::move(soft.jiggleWeights);
+        out_.painted.cloths = std::move(soft.clothWeights);
         document_.leniency->leaveOut([&] {
             if (!mask_.empty() && !isMaskThere_) {
                 refuse(out_.element + " " + kDeformers + " smoothing mask", "no primitive has " + cage::quoted(mask_));
@@ -379,7 +379,7 @@ private:
             appendWeights(document_, sets, count, binding_.skinJoints(), element, out_.weights);
         }
         soft_.append(document_, painted, out_.positions.size(), count, element);
-        appendMushMask(document_, mask, out_.positions.size(), count, element + " " + mask_, out_.mushMask);
+        appendMushMask(document_, mask, out_.positions.size(), count, element + " " + mask_, out_.painted.mushMask);
         out_.positions.insert(out_.positions.end(), positions.begin(), positions.end());
         out_.morphs.append(count, displacements);
         out_.cageNumbers.insert(out_.cageNumbers.end(), numbers.begin(), numbers.end());

@@ -2,6 +2,7 @@
 
 #include "cage/sharp_features.h"
 #include "cage/triangulation.h"
+#include "cage/vertex_weights.h"
 
 #include <algorithm>
 #include <map>
@@ -105,19 +106,7 @@ private:
         SkinWeights mapped;
         mapped.starts.push_back(0);
         for (const uint32_t source : sources_) {
-            const auto begin = weights_.influences.begin();
-            mapped.influences.insert(mapped.influences.end(), begin + weights_.starts[source],
-                                     begin + weights_.starts[source + 1]);
-            mapped.starts.push_back(static_cast<uint32_t>(mapped.influences.size()));
-            if (!weights_.jiggles.empty()) {
-                mapped.jiggles.push_back(weights_.jiggles[source]);
-            }
-            if (!weights_.cloths.empty()) {
-                mapped.cloths.push_back(weights_.cloths[source]);
-            }
-            if (!weights_.mushMask.empty()) {
-                mapped.mushMask.push_back(weights_.mushMask[source]);
-            }
+            appendVertex(weights_, source, mapped);
         }
         weights_ = std::move(mapped);
     }

@@ -308,15 +308,7 @@ void fillMotion(const Mesh& mesh, PartCage& out) {
             target.vertices.push_back(i);
             target.deltas.push_back(displacement.delta);
         }
-        if (!mesh.jiggleWeights.empty()) {
-            out.weights.jiggles.push_back(mesh.jiggleWeights[out.cage.sourceVertices[i]]);
-        }
-        if (!mesh.clothWeights.empty()) {
-            out.weights.cloths.push_back(mesh.clothWeights[out.cage.sourceVertices[i]]);
-        }
-        if (!mesh.mushMask.empty()) {
-            out.weights.mushMask.push_back(mesh.mushMask[out.cage.sourceVertices[i]]);
-        }
+        appendPainted(mesh.painted, out.cage.sourceVertices[i], out.weights);
     }
     out.jiggles = mesh.jiggles;
     out.cloths = mesh.cloths;

@@ -80,10 +80,8 @@ struct Mesh {
     VertexWeights weights;
     VertexMorphs morphs;
     std::vector<Jiggle> jiggles;
-    std::vector<Cloth> cloths; ///< with colliders by the numbers of the file
-    // Per vertex; or empty: none is painted.
-    std::vector<PaintedWeight> jiggleWeights, clothWeights;
-    std::vector<float> mushMask;       ///< per vertex; or empty: delta mush smooths them wholly
+    std::vector<Cloth> cloths;         ///< with colliders by the numbers of the file
+    SkinWeights painted;               ///< per vertex; without influences
     std::vector<uint32_t> cageNumbers; ///< per vertex, where the source numbers cage vertices; else empty
     WeldSource numberSource = WeldSource::cageExtension; ///< of cageNumbers
     /// Vertices that are one, where the source lists these pairs and no cage numbers (WeldSource::meshManifold).

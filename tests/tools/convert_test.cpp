@@ -1,6 +1,7 @@
 // supple convert as a user runs it: what it writes reads back, poses alike and satisfies Khronos' validator.
 #include "cage/formats/reader.h"
 #include "tests/support/characters.h"
+#include "tests/support/spring_files.h"
 #include "tests/tools/command_runner.h"
 #include "tools/gltf/writer.h"
 
@@ -141,6 +142,29 @@ TEST_F(Convert, KeepsWhatACageWasMadeFor) {
     writeText(file("loop.glb"), {reinterpret_cast<const char*>(glb->bytes.data()), glb->bytes.size()});
     ASSERT_EQ(run("convert loop.glb -o again.glb").exitCode, 0);
     expectSame(character, read(file("again.glb")));
+}
+
+TEST_F(Convert, KeepsSprings) {
+    const auto convert = [&](const char* source, const std::string& extensions) {
+        const std::vector<std::byte> glb = supple::test::withExtensions(source, extensions);
+        writeText(file("springs.glb"), {reinterpret_cast<const char*>(glb.data()), glb.size()});
+        EXPECT_EQ(run("convert springs.glb -o again.glb").exitCode, 0);
+        return read(file("again.glb")).springBones;
+    };
+    const supple::cage::SpringBones wren = convert(kWren, supple::test::kWrenSprings);
+    ASSERT_EQ(wren.springs.size(), 2u);
+    EXPECT_EQ(wren.springs[1].name, "scarf");
+    EXPECT_EQ(wren.springs[1].center, 0u);
+    EXPECT_EQ(wren.colliders.size(), 5u);
+    EXPECT_EQ(wren.colliderGroups, (std::vector<std::vector<uint32_t>>{{0, 1, 4}, {1, 2, 3}}));
+    const supple::cage::SpringBones pip = convert(kPip, supple::test::kPipSprings);
+    EXPECT_EQ(pip.springs.size(), 3u) << "a tail and two ears";
+    EXPECT_EQ(pip.colliders.size(), 1u);
+    for (const std::string name : {"springs", "again"}) {
+        const std::string bake = "bake " + name + ".glb -o " + name + ".obj --scheme cage --clip walk --time 1";
+        ASSERT_EQ(runOnDevice(bake + " --simulate 1").exitCode, 0);
+    }
+    EXPECT_EQ(vertices(file("springs.obj")), vertices(file("again.obj"))) << "chains swing as trees do";
 }
 
 TEST_F(Convert, OtherSubcommandsOpenObjToo) {

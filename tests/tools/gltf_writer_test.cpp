@@ -354,6 +354,103 @@ TEST(GltfWriter, ClothsComeBack) {
     EXPECT_EQ(again->warnings, std::vector<std::string>());
 }
 
+TEST(GltfWriter, SpringsComeBack) {
+    Character character = richCharacter();
+    const auto springNode = [&](uint32_t parent, const glm::vec3& translation) {
+        Node node;
+        node.name = "spring" + std::to_string(character.skeleton.nodes.size());
+        node.parent = parent;
+        node.translation = translation;
+        character.skeleton.parentsFirst.push_back(static_cast<uint32_t>(character.skeleton.nodes.size()));
+        character.skeleton.nodes.push_back(node);
+        return character.skeleton.parentsFirst.back();
+    };
+    const uint32_t top = springNode(0, {0, 1, 0}), middle = springNode(top, {0, 1, 0}),
+                   end = springNode(middle, {1, 0, 0});
+    SpringBones& bones = character.springBones;
+    SpringCollider capsule{.node = 0, .shape = ColliderShape::capsule};
+    capsule.offset = {1.0f, 2.0f, 3.0f};
+    capsule.tail = {4.0f, 5.0f, 6.0f};
+    capsule.radius = 0.5f;
+    SpringCollider sphere{.node = top, .inside = true};
+    sphere.radius = 9.0f;
+    bones.colliders = {capsule, sphere};
+    bones.colliderGroups = {{1}, {0, 1}};
+    bones.springs.resize(1);
+    bones.springs[0].name = "ear";
+    bones.springs[0].center = 0;
+    bones.springs[0].joints = {{top, 0.02f, 2.0f, 0.1f, 0.4f, {0, 0, -1}}, {middle}, {end}};
+    bones.springs[0].colliderGroups = {1, 0};
+    const Result<Character> again = readGltf(writeWell(character), "t.glb", "", {.strict = true});
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    ASSERT_EQ(again->springBones.springs.size(), 1u);
+    const Spring &is = again->springBones.springs[0], &was = bones.springs[0];
+    EXPECT_EQ(is.name, was.name);
+    EXPECT_EQ(is.center, was.center);
+    EXPECT_FALSE(is.isTree);
+    EXPECT_EQ(is.colliderGroups, was.colliderGroups);
+    ASSERT_EQ(is.joints.size(), was.joints.size());
+    for (size_t j = 0; j < is.joints.size(); ++j) {
+        EXPECT_EQ(is.joints[j].node, was.joints[j].node);
+        EXPECT_EQ(is.joints[j].hitRadius, was.joints[j].hitRadius);
+        EXPECT_EQ(is.joints[j].stiffness, was.joints[j].stiffness);
+        EXPECT_EQ(is.joints[j].gravityPower, was.joints[j].gravityPower);
+        EXPECT_EQ(is.joints[j].gravityDirection, was.joints[j].gravityDirection);
+        EXPECT_EQ(is.joints[j].drag, was.joints[j].drag);
+    }
+    EXPECT_EQ(again->springBones.colliderGroups, bones.colliderGroups);
+    ASSERT_EQ(again->springBones.colliders.size(), 2u);
+    EXPECT_EQ(again->springBones.colliders[0].tail, capsule.tail);
+    EXPECT_TRUE(again->springBones.colliders[1].inside);
+}
+
+TEST(GltfWriter, BranchesOfVrm0BecomeChains) {
+    Character character = richCharacter();
+    const auto first = static_cast<uint32_t>(character.skeleton.nodes.size());
+    // A root with two branches; the second one is a leaf.
+    const uint32_t parents[] = {0, first, first + 1, first};
+    for (size_t i = 0; i < 4; ++i) {
+        Node node;
+        node.name = "bone" + std::to_string(i);
+        node.parent = parents[i];
+        node.translation = {0.0f, 2.0f, 0.0f};
+        character.skeleton.parentsFirst.push_back(first + static_cast<uint32_t>(i));
+        character.skeleton.nodes.push_back(node);
+    }
+    Spring tree;
+    tree.isTree = true;
+    for (uint32_t i = 0; i < 4; ++i) {
+        tree.joints.push_back({.node = first + i, .stiffness = 0.25f, .drag = 0.75f});
+    }
+    character.springBones.springs = {tree};
+    const Result<Character> again = readGltf(writeWell(character), "t.glb", "", {.strict = true});
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    const std::vector<Spring>& springs = again->springBones.springs;
+    ASSERT_EQ(springs.size(), 2u);
+    ASSERT_EQ(springs[0].joints.size(), 4u);
+    ASSERT_EQ(springs[1].joints.size(), 2u);
+    const uint32_t chain[] = {first, first + 1, first + 2};
+    for (size_t j = 0; j < 3; ++j) {
+        EXPECT_EQ(springs[0].joints[j].node, chain[j]);
+        EXPECT_EQ(springs[0].joints[j].stiffness, 0.25f);
+        EXPECT_EQ(springs[0].joints[j].drag, 0.75f);
+    }
+    EXPECT_EQ(springs[1].joints[0].node, first + 3);
+    for (const Spring& spring : springs) {
+        const Node& tail = again->skeleton.nodes[spring.joints.back().node];
+        EXPECT_EQ(tail.parent, spring.joints[spring.joints.size() - 2].node);
+        EXPECT_NEAR(tail.translation.y, 0.07f, 1e-6f) << "what VRM 0.x gives a leaf";
+    }
+}
+
+TEST(GltfWriter, RefusesACharacterWithoutFaces) {
+    Character character;
+    character.name = "nobody";
+    EXPECT_EQ(writeGlb(character).error().message, "nobody: GLB: there are no faces to write");
+    character.parts.clear();
+    EXPECT_EQ(writeGlb(character).error().message, "nobody: GLB: there are no faces to write");
+}
+
 TEST(GltfWriter, TheExtensionByHand) {
     const Glb glb(writeWell(richCharacter()));
     EXPECT_EQ(glb.root["extensionsUsed"], json({"FB_ngon_encoding", "SUPPLE_mesh_cage", "SUPPLE_deformers",

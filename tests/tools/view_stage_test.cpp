@@ -230,6 +230,48 @@ float farthest(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b)
     return most;
 }
 
+/// Ears and a tail swing, and their numbers change while they do.
+TEST_F(RemadeStage, WhatIsSoftMovesAndIsTuned) {
+    Result<std::unique_ptr<ViewStage>> opened = create({.rate = 1});
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    ViewStage& stage = **opened;
+    ASSERT_TRUE(stage.open(std::string(SUPPLE_SAMPLE_ASSETS) + "/pip_moving.glb", "walk", kAspect).ok());
+    EXPECT_TRUE(stage.settings.simulate) << "the file has springs";
+    stage.settings.soft.springs = true;
+    const auto walked = [&] {
+        EXPECT_TRUE(!stage.needsOtherGroup() || stage.changeGroup(lastFrame()).ok());
+        stage.settings.time = 0.0;
+        for (int i = 0; i < 16; ++i) {
+            draw(stage);
+            stage.advance(1.0 / 30.0);
+        }
+        const Result<std::vector<glm::vec3>> cage = stage.group().readCage();
+        EXPECT_TRUE(cage.ok());
+        return cage.ok() ? *cage : std::vector<glm::vec3>();
+    };
+    const std::vector<glm::vec3> swung = walked();
+    std::vector<ViewStage::ShownStroke> strokes = stage.shownStrokes(kAspect);
+    const auto dots = [&] {
+        return std::count_if(strokes.begin(), strokes.end(),
+                             [](const auto& stroke) { return stroke.from == stroke.to; });
+    };
+    EXPECT_EQ(dots(), 2 * 3 + 8) << "two ears and a tail, with their ends";
+    stage.settings.soft = {.painted = true};
+    strokes = stage.shownStrokes(kAspect);
+    EXPECT_EQ(dots(), std::ssize(strokes));
+    EXPECT_GT(dots(), 20);
+    stage.settings.tuning.gravity = 8.0f;
+    ASSERT_TRUE(stage.tune(lastFrame()).ok());
+    EXPECT_TRUE(stage.shownStrokes(kAspect).empty()) << "no frame of the new group yet";
+    const std::vector<glm::vec3> heavy = walked();
+    stage.settings.simulate = false;
+    EXPECT_TRUE(stage.needsOtherGroup());
+    const std::vector<glm::vec3> stiff = walked();
+    EXPECT_GT(farthest(swung, stiff), 0.02f);
+    EXPECT_GT(farthest(swung, heavy), 0.02f);
+    waitIdle();
+}
+
 TEST_F(RemadeStage, ClipsGoOverIntoEachOther) {
     Result<std::unique_ptr<ViewStage>> opened = create({.rate = 1});
     ASSERT_TRUE(opened.ok()) << opened.error().message;

@@ -1,8 +1,9 @@
-// supple_creature [--quads] OUT.glb: makes the sample character, always to the same bytes.
+// supple_creature [--quads|--moving] OUT.glb: makes the sample character, always to the same bytes.
 
 #include "assemble.h"
 #include "paint.h"
 #include "pip_model.h"
+#include "pip_moving.h"
 #include "skeleton.h"
 
 #include "surface/pm/mesh.h"
@@ -31,9 +32,10 @@ bool writeFile(const char* path, const std::vector<std::byte>& bytes) {
 } // namespace
 
 int main(int argc, char** argv) {
-    const bool quads = argc == 3 && std::strcmp(argv[1], "--quads") == 0;
-    if (argc != 2 && !quads) {
-        std::fprintf(stderr, "usage: supple_creature [--quads] OUT.glb\n");
+    const auto isGiven = [&](const char* flag) { return argc == 3 && std::strcmp(argv[1], flag) == 0; };
+    const bool quads = isGiven("--quads"), moving = isGiven("--moving");
+    if (argc != 2 && !quads && !moving) {
+        std::fprintf(stderr, "usage: supple_creature [--quads|--moving] OUT.glb\n");
         return 2;
     }
     const char* path = argv[argc - 1];
@@ -41,9 +43,12 @@ int main(int argc, char** argv) {
     if (hasCoincidentPoints(model)) {
         return fail("two points coincide");
     }
-    const Skeleton skeleton = makeSkeleton();
-    const supple::cage::Character character =
+    const Skeleton skeleton = makeSkeleton(moving);
+    supple::cage::Character character =
         assemble(model, skeleton, skinWeights(model, skeleton), paint(model), unwrap(model), makeClips(skeleton));
+    if (moving) {
+        addMoving(model, skeleton, character);
+    }
     const auto mesh = supple::surface::pm::buildMesh(character.cage);
     if (!mesh) {
         return fail(mesh.error().message);

@@ -14,7 +14,7 @@ Vec3 flipped(const Vec3& p) {
 
 } // namespace
 
-Skeleton makeSkeleton() {
+Skeleton makeSkeleton(bool ends) {
     Skeleton skeleton;
     const auto add = [&](const std::string& name, const char* parent, const Vec3& rest, const Vec3& end) {
         skeleton.joints.push_back({name, *parent ? skeleton.index(parent) : -1, rest, end});
@@ -60,6 +60,11 @@ Skeleton makeSkeleton() {
     for (int i = 0; i < kTailJoints; ++i) {
         const std::string parent = i == 0 ? "hips" : "tail" + std::to_string(i);
         add("tail" + std::to_string(i + 1), parent.c_str(), kTail[i], kTail[i + 1]);
+    }
+    if (ends) {
+        add("earEnd.L", "earTip.L", kEarTip, kEarTip);
+        add("earEnd.R", "earTip.R", flipped(kEarTip), flipped(kEarTip));
+        add("tailEnd", "tail7", kTail[kTailJoints], kTail[kTailJoints]);
     }
     return skeleton;
 }

@@ -15,6 +15,20 @@ int Skeleton::index(const std::string& name) const {
     std::exit(1);
 }
 
+Links Skeleton::links(const std::string& name) const {
+    Links links;
+    Vec3 end{0};
+    for (const Joint& joint : joints) {
+        if (joint.name == name + std::to_string(links.joints.size() + 1)) {
+            links.joints.push_back(joint.name);
+            links.places.push_back(joint.rest);
+            end = joint.end;
+        }
+    }
+    links.places.push_back(end);
+    return links;
+}
+
 Vec3 Skeleton::offset(int joint) const {
     const Joint& it = joints[static_cast<size_t>(joint)];
     return it.parent < 0 ? it.rest : it.rest - joints[static_cast<size_t>(it.parent)].rest;

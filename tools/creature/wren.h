@@ -35,6 +35,13 @@ constexpr Vec3 kScabbard{0.152, 0.925, -0.02};
 constexpr Vec3 kScarfTail[] = {
     {-0.062, 1.262, -0.096}, {-0.080, 1.120, -0.158}, {-0.092, 0.985, -0.170}, {-0.098, 0.860, -0.162}};
 constexpr int kScarfJoints = 3;
+// The pouches at the belt, on her right side: where they hang, and their lower ends.
+struct Pouch {
+    const char* name;
+    Vec3 top, bottom;
+};
+constexpr Pouch kPouches[] = {{"pouchFront", {-0.093, 0.955, 0.082}, {-0.103, 0.885, 0.098}},
+                              {"pouchBack", {-0.078, 0.955, -0.096}, {-0.084, 0.890, -0.116}}};
 
 // The head is modelled at one size and worn at another.
 Vec3 grown(const Vec3& p);
@@ -74,7 +81,8 @@ Cage modelGear(const Cage& jacket);
 Cage modelScarf();
 Cage modelSword();
 
-Skeleton makeSkeleton();
+// `springs`: as Skeleton has it. The scarf then has twice as many joints, and pouches have some of their own.
+Skeleton makeSkeleton(bool springs);
 // By place and part alone, so that layers of clothes move as one.
 std::vector<Influences> weightsOf(const Cage& cage, const Skeleton& skeleton);
 } // namespace wren

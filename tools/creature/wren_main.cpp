@@ -1,11 +1,13 @@
-// supple_wren OUT.glb: makes the second sample character, always to the same bytes.
+// supple_wren [--moving] OUT.glb: makes the second sample character, always to the same bytes.
 
 #include "wren_assemble.h"
 #include "wren_clips.h"
+#include "wren_springs.h"
 
 #include "tools/gltf/writer.h"
 
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 
 using namespace supple::creature;
@@ -45,10 +47,12 @@ std::vector<wren::Piece> pieces() {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::fprintf(stderr, "usage: supple_wren OUT.glb\n");
+    const bool moving = argc == 3 && std::strcmp(argv[1], "--moving") == 0;
+    if (argc != 2 && !moving) {
+        std::fprintf(stderr, "usage: supple_wren [--moving] OUT.glb\n");
         return 2;
     }
+    const char* path = argv[argc - 1];
     const std::vector<wren::Piece> made = pieces();
     size_t points = 0, faces = 0, quads = 0;
     for (const wren::Piece& piece : made) {
@@ -61,8 +65,11 @@ int main(int argc, char** argv) {
             quads += face.points.size() == 4;
         }
     }
-    const Skeleton skeleton = wren::makeSkeleton();
-    const supple::cage::Character character = wren::assemble(made, skeleton, wren::makeClips(skeleton));
+    const Skeleton skeleton = wren::makeSkeleton(moving);
+    supple::cage::Character character = wren::assemble(made, skeleton, wren::makeClips(skeleton));
+    if (moving) {
+        wren::addSprings(skeleton, character);
+    }
     const auto file = supple::cage::writeGlb(character);
     if (!file) {
         return fail(file.error().message);
@@ -70,10 +77,10 @@ int main(int argc, char** argv) {
     for (const std::string& warning : file->warnings) {
         return fail(warning);
     }
-    std::ofstream out(argv[1], std::ios::binary);
+    std::ofstream out(path, std::ios::binary);
     out.write(reinterpret_cast<const char*>(file->bytes.data()), static_cast<std::streamsize>(file->bytes.size()));
     if (!out.flush()) {
-        return fail(std::string("cannot write ") + argv[1]);
+        return fail(std::string("cannot write ") + path);
     }
     std::printf("%zu parts, %zu points, %zu faces, %zu of them quads, %zu joints, %zu bytes\n", made.size(), points,
                 faces, quads, skeleton.joints.size(), file->bytes.size());

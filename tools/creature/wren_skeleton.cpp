@@ -37,10 +37,17 @@ Vec3 grip() {
     return handGrown({0.4835, 0.8175, -0.003});
 }
 
-Skeleton makeSkeleton() {
+Skeleton makeSkeleton(bool springs) {
     Skeleton skeleton;
+    skeleton.springs = springs;
     const auto add = [&](const std::string& name, const std::string& parent, const Vec3& rest) {
         skeleton.joints.push_back({name, parent.empty() ? -1 : skeleton.index(parent), rest, rest});
+    };
+    const auto addChain = [&](const std::string& name, const std::string& parent, const std::vector<Vec3>& places) {
+        for (size_t i = 0; i + 1 < places.size(); ++i) {
+            add(name + std::to_string(i + 1), i == 0 ? parent : name + std::to_string(i), places[i]);
+            skeleton.joints.back().end = places[i + 1];
+        }
     };
     add("root", "", {0, 0, 0});
     add("hips", "root", kHips);
@@ -48,12 +55,9 @@ Skeleton makeSkeleton() {
     add("chest", "spine", kChest);
     add("neck", "chest", kNeck);
     add("head", "neck", kHead);
-    for (int i = 0; i < kTailJoints; ++i) {
-        add("ponytail" + std::to_string(i + 1), i == 0 ? "head" : "ponytail" + std::to_string(i), grown(kTail[i]));
-    }
-    for (int i = 0; i < kScarfJoints; ++i) {
-        add("scarf" + std::to_string(i + 1), i == 0 ? "chest" : "scarf" + std::to_string(i), kScarfTail[i]);
-    }
+    addChain("ponytail", "head", {grown(kTail[0]), grown(kTail[1]), grown(kTail[2]), grown(kTail[3])});
+    const std::vector<Vec3> scarf{std::begin(kScarfTail), std::end(kScarfTail)};
+    addChain("scarf", "chest", springs ? spline(scarf, 2 * kScarfJoints + 1) : scarf);
     for (const std::string side : {".L", ".R"}) {
         const auto addPaired = [&](const std::string& name, const std::string& parent, const Vec3& rest) {
             add(name + side, parent, side == ".L" ? rest : onRight(rest));
@@ -79,6 +83,16 @@ Skeleton makeSkeleton() {
     }
     add("sword", "hand.R", onRight(grip()));
     add("scabbard", "hips", kScabbard);
+    for (size_t i = 0; springs && i < std::size(kPouches); ++i) {
+        addChain(kPouches[i].name, "hips", {kPouches[i].top, kPouches[i].bottom});
+    }
+    // Springs end at joints.
+    for (const std::string name : {"ponytail", "scarf", kPouches[0].name, kPouches[1].name}) {
+        const Links links = skeleton.links(name);
+        if (springs) {
+            add(name + "End", links.joints.back(), links.places.back());
+        }
+    }
     return skeleton;
 }
 

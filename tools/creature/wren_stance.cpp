@@ -73,11 +73,12 @@ void drape(Pose& pose) {
 }
 
 void hang(Clip& clip, const Skeleton& skeleton, bool loops, double wind) {
-    const Vec3 tailEnd = grown(kTail[kTailJoints]);
-    dangle(clip, skeleton, {{"ponytail1", "ponytail2", "ponytail3"}, tailEnd, 0.22, 0.22, {0, -0.0010, -wind * 0.5}},
-           loops);
-    dangle(clip, skeleton,
-           {{"scarf1", "scarf2", "scarf3"}, kScarfTail[kScarfJoints], 0.10, 0.20, {0, -0.0012, -0.0003 - wind}}, loops);
+    if (skeleton.springs) {
+        return;
+    }
+    const Links tail = skeleton.links("ponytail"), scarf = skeleton.links("scarf");
+    dangle(clip, skeleton, {tail.joints, tail.places.back(), 0.22, 0.22, {0, -0.0010, -wind * 0.5}}, loops);
+    dangle(clip, skeleton, {scarf.joints, scarf.places.back(), 0.10, 0.20, {0, -0.0012, -0.0003 - wind}}, loops);
 }
 
 } // namespace supple::creature::wren

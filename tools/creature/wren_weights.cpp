@@ -147,6 +147,17 @@ void head(Shares& shares, const Vec3& p) {
     shares.add("neck", 1 - head - chest);
 }
 
+// The pouch that a shell is a piece of, if pouches move.
+const Pouch* pouchAt(const Skeleton& skeleton, Part part, const Vec3& middle) {
+    for (const Pouch& pouch : kPouches) {
+        if (skeleton.springs && part != Part::Strap && middle.y < 0.95 &&
+            glm::length(middle - mix(pouch.top, pouch.bottom, 0.5)) < 0.055) {
+            return &pouch;
+        }
+    }
+    return nullptr;
+}
+
 void weigh(Shares& shares, const Point& point, const Vec3& middle) {
     const Vec3& p = point.position;
     switch (point.part) {
@@ -155,9 +166,8 @@ void weigh(Shares& shares, const Point& point, const Vec3& middle) {
     case Part::Hair:
     case Part::Ribbon:
         if (point.rib > 0) {
-            return shareChain(shares, "head", {"ponytail1", "ponytail2", "ponytail3"},
-                              along(std::array{grown(kTail[0]), grown(kTail[1]), grown(kTail[2]), grown(kTail[3])}, p),
-                              0.42, 1);
+            const Links links = shares.skeleton.links("ponytail");
+            return shareChain(shares, "head", links.joints, along(links.places, p), 0.42, 1);
         }
         return shares.add("head", 1);
     case Part::Jacket:
@@ -168,6 +178,9 @@ void weigh(Shares& shares, const Point& point, const Vec3& middle) {
     case Part::Strap:
     case Part::Buckle:
     case Part::Pouch: {
+        if (const Pouch* pouch = pouchAt(shares.skeleton, point.part, middle)) {
+            return shares.add(std::string(pouch->name) + "1", 1);
+        }
         const Vec3 at = point.part == Part::Strap ? p : middle;
         return at.y < 0.75 ? leg(shares, at) : torsoAndArm(shares, at);
     }
@@ -194,7 +207,8 @@ void weigh(Shares& shares, const Point& point, const Vec3& middle) {
     case Part::Scarf:
     case Part::ScarfFringe:
         if (point.rib > 0) {
-            return shareChain(shares, "chest", {"scarf1", "scarf2", "scarf3"}, along(kScarfTail, p), 0.42, 1);
+            const Links links = shares.skeleton.links("scarf");
+            return shareChain(shares, "chest", links.joints, along(links.places, p), 0.42, 1);
         }
         shares.add("neck", ramp(1.225, 1.345, p.y));
         return shares.add("chest", 1 - ramp(1.225, 1.345, p.y));

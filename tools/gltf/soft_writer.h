@@ -16,7 +16,5 @@ namespace supple::cage::gltf {
 /// `jiggle` and `cloth` of a mesh, of its own.
 [[nodiscard]] json writeJiggles(std::span<const Jiggle> jiggles);
 [[nodiscard]] json writeCloths(std::span<const Cloth> cloths);
-/// The colliders that cloths name, as VRMC_springBone of the file has them. Nothing if they name none.
-void writeColliders(const Character& character, json& root);
 
 } // namespace supple::cage::gltf

@@ -11,6 +11,7 @@
 #include "tools/gltf/part_weights.h"
 #include "tools/gltf/smoothing_writer.h"
 #include "tools/gltf/soft_writer.h"
+#include "tools/gltf/spring_writer.h"
 #include "tools/gltf/still_mesh_writer.h"
 
 #include <algorithm>
@@ -367,6 +368,9 @@ json newRoot(const Character& character) {
 }
 
 GlbFile toGlb(const Character& character) {
+    if (character.parts.empty() || character.cage.faceCount() == 0) {
+        refuse("GLB", "there are no faces to write");
+    }
     GlbFile file;
     Packer packer;
     const Skins skins(character);
@@ -380,7 +384,7 @@ GlbFile toGlb(const Character& character) {
         root["extensionsUsed"].push_back("SUPPLE_deformers");
     }
     writeNodes(character, skins, root, file.warnings);
-    writeColliders(character, root);
+    writeSpringBones(character, root);
     root["meshes"] = writeMeshes(character, skins, packer, file);
     for (const std::vector<uint32_t>& joints : skins.joints) {
         root["skins"].push_back(writeSkin(character.skin, joints, packer));

@@ -28,8 +28,10 @@ struct GlbFile {
 /// left out. So are images in a format that glTF does not know, and clips without channels, which glTF forbids; a
 /// warning names them.
 ///
-/// The character is one that a reader made: indices in range, weights normalised, numbers finite. Never throws. Errors
-/// are one line that begins with the character's name.
+/// Springs and colliders go into VRMC_springBone; those of VRM 0.x as chains, with nodes for the tails of leaves.
+///
+/// The character is one that a reader made: indices in range, weights normalised, numbers finite. One without faces is
+/// refused. Never throws. Errors are one line that begins with the character's name.
 [[nodiscard]] Result<GlbFile> writeGlb(const Character& character);
 
 /// Meshes as they are shown, one node each, with all materials of the character, whose images keep their bytes. There

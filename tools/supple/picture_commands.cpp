@@ -61,6 +61,10 @@ void bindShown(CLI::App& command, DrawOptions& draw) {
         ->type_name("NAME|INDEX")
         ->capture_default_str();
     command.add_flag("--cage,!--no-cage", draw.cageOverlay, "Draw the cage's edges over the surface");
+    command.add_flag("--springs", draw.soft.springs,
+                     "Draw chains of joints that swing, and how far they stay from colliders");
+    command.add_flag("--colliders", draw.soft.colliders, "Draw what springs and cloth do not enter");
+    command.add_flag("--painted", draw.soft.painted, "Dot the vertices of the cage that jiggle or are cloth");
     command.add_flag("--ground,!--no-ground", draw.ground, "A floor that takes shadows (on unless --no-ground)");
     command.add_flag("--legend,!--no-legend", draw.legend,
                      "What the view's colors stand for, in the picture's corner (on unless --no-legend)");
@@ -136,10 +140,13 @@ void bindTrace(CLI::App& command, DrawOptions& draw) {
         trace->excludes(command.get_option(other));
 }
 
+/// Behind bindDraw().
 void bindAlpha(CLI::App& command, DrawOptions& draw) {
     const HelpGroup heading(command, "What is shown");
-    command.add_flag("--alpha", draw.alpha,
-                     "Nothing behind the figure: its shadow on the floor is drawn, the backdrop is not");
+    CLI::Option* alpha = command.add_flag(
+        "--alpha", draw.alpha, "Nothing behind the figure: its shadow on the floor is drawn, the backdrop is not");
+    for (const char* other : {"--springs", "--colliders", "--painted"})
+        alpha->excludes(command.get_option(other));
 }
 
 } // namespace
@@ -165,8 +172,8 @@ void bindAnimate(CLI::App& app, int& exitCode) {
     command->add_option("--quality", options->quality, "Of a WebP; 100 keeps every bit")
         ->check(CLI::Range(0.0f, 100.0f))
         ->capture_default_str();
-    bindAlpha(*command, options->draw);
     bindDraw(*command, options->draw);
+    bindAlpha(*command, options->draw);
     bindLooks(*command, options->draw);
     bindTransition(*command, options->draw.transition);
     bindSimulate(*command, options->draw.simulate);
@@ -189,9 +196,9 @@ void bindRender(CLI::App& app, int& exitCode) {
     command->add_option("--size", options->size, "Of the picture; with --scheme all of each")
         ->check(sizeValidator())
         ->capture_default_str();
-    bindAlpha(*command, options->draw);
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
+    bindAlpha(*command, options->draw);
     bindLooks(*command, options->draw);
     bindTrace(*command, options->draw);
     bindCamera(*command, *options);

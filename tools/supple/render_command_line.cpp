@@ -97,6 +97,9 @@ void addDraw(Words& words, const DrawOptions& draw) {
     words.option("--view", draw.view, usual.view);
     words.option("--joint", draw.joint, usual.joint);
     words.flag("--cage", draw.cageOverlay);
+    words.flag("--springs", draw.soft.springs);
+    words.flag("--colliders", draw.soft.colliders);
+    words.flag("--painted", draw.soft.painted);
     words.flag("--split", draw.split);
     words.flag("--levels", draw.levels);
     words.option("--chord-error", double{draw.chordError}, double{usual.chordError});

@@ -16,6 +16,16 @@ namespace supple::tools {
 /// Pixels between an edge's curve and its segments, as SuppleCameraDesc has it.
 inline constexpr float kChordError = 0.25f;
 
+/// What is drawn over a picture of what makes the character soft.
+struct SoftShown {
+    bool springs = false;   ///< chains of joints, and how far their tails stay from colliders
+    bool colliders = false; ///< that springs or cloths meet
+    bool painted = false;   ///< vertices of the cage that jiggle or are cloth
+
+    [[nodiscard]] bool any() const { return springs || colliders || painted; }
+    bool operator==(const SoftShown&) const = default;
+};
+
 struct DrawOptions {
     std::string scheme = "auto"; ///< auto, a scheme's, or cage (the deformed cage itself)
     std::vector<host::PartScheme> partSchemes;
@@ -32,6 +42,7 @@ struct DrawOptions {
     bool levels = false;                 ///< of detail, as the camera needs them, instead of `rate`
     float chordError = kChordError;      ///< with `levels`: pixels
     bool cageOverlay = false;            ///< the cage's edges drawn over the surface
+    SoftShown soft;                      ///< drawn over the surface; not with `alpha`
     bool split = false;                  ///< the cage beside the surface
     bool ground = true;                  ///< a floor that takes shadows
     bool legend = true;                  ///< what the view's colors stand for, in the picture's corner

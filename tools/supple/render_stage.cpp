@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace supple::tools {
 
@@ -209,6 +210,8 @@ Result<std::unique_ptr<Stage>> Stage::open(Session& session, host::CharacterFile
         return view.error();
     if (isMeasured(*view))
         stage->cage_ = character.character.cage;
+    if (options.soft.any())
+        stage->softFacts_ = SoftFacts(character.character);
     stage->rules_ = {creaseModeOf(options.creases), options.sharpThreshold, rulesOf(options.rules)};
     Result<std::unique_ptr<host::Figure>> figure = host::createFigure(*session.context, std::move(character));
     if (!figure)
@@ -290,7 +293,8 @@ Result<host::Picture> Stage::draw(host::Scene scene, bool alpha) {
         Result<host::Picture> picture = drawPasses(scene);
         if (picture && options_.legend && !scene.cageFaces)
             drawLegendOf(scene.view, *picture);
-        return picture;
+        const Status soft = picture && options_.soft.any() ? drawSoft(scene, *picture) : success();
+        return soft ? std::move(picture) : soft.error();
     }
     scene.backdrop = glm::vec3(0.0f);
     const Result<host::Picture> overBlack = drawPasses(scene);
@@ -307,6 +311,19 @@ void Stage::drawLegendOf(uint32_t view, host::Picture& picture) const {
     const std::optional<Legend> legend = legendOf(view, viewFactsOf(levels_ ? *levels_ : *group_, joint_));
     if (legend)
         drawLegend(picture, *legend);
+}
+
+Status Stage::drawSoft(const host::Scene& scene, host::Picture& picture) const {
+    const Result<std::vector<Stroke>> strokes = softStrokes(softFacts_, levels_ ? *levels_ : *group_, options_.soft);
+    if (!strokes)
+        return strokes.error();
+    const float aspect = static_cast<float>(picture.width) / static_cast<float>(picture.height);
+    // Beside the cage, the surface stands a quarter of the picture to the right.
+    const glm::mat4 shift = glm::translate(glm::mat4(1.0f), {scene.split ? 0.5f : 0.0f, 0.0f, 0.0f});
+    const glm::mat4 view = scene.camera.projection(aspect, scene.bounds.radius()) * scene.camera.view();
+    drawStrokes(picture, *strokes, options_.legend ? softKeys(softFacts_, options_.soft) : std::vector<SoftKey>(),
+                shift * view);
+    return success();
 }
 
 Result<host::Picture> Stage::drawPasses(host::Scene scene) {

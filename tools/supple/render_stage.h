@@ -7,6 +7,7 @@
 #include "tools/supple/measured_views.h"
 #include "tools/supple/render_options.h"
 #include "tools/supple/session.h"
+#include "tools/supple/soft_overlay.h"
 
 #include <cstdint>
 #include <memory>
@@ -94,6 +95,7 @@ private:
     [[nodiscard]] Status prepare(const host::Scene& scene);
     [[nodiscard]] Status chooseLevels(const host::Scene& scene);
     void drawLegendOf(uint32_t view, host::Picture& picture) const;
+    [[nodiscard]] Status drawSoft(const host::Scene& scene, host::Picture& picture) const;
 
     Session& session_;
     const DrawOptions options_;
@@ -101,6 +103,7 @@ private:
     std::unique_ptr<host::FigureGroup> group_;
     std::unique_ptr<host::FigureGroup> levels_; ///< is drawn instead of group_, if levels are wanted
     std::optional<cage::Cage> cage_;            ///< if the view is measured
+    SoftFacts softFacts_;
     SurfaceRules rules_;
     uint32_t joint_ = 0; ///< whose weights are shown
     ClipTime pose_;

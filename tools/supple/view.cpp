@@ -350,7 +350,7 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
     Status remade = success();
     const bool otherScheme = wishes.scheme && *wishes.scheme != stage_->scheme();
     const bool otherRate = wishes.rate && *wishes.rate != stage_->group().edgeRate();
-    if (otherScheme || wishes.skinning || otherRate || stage_->needsOtherGroup())
+    if (otherScheme || wishes.skinning || otherRate || wishes.tune || stage_->needsOtherGroup())
         remade = announce("making the surface");
     if (!remade)
         return remade.error();
@@ -360,11 +360,15 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
         remade = stage_->setSkinning(*wishes.skinning, context_->lastFrame());
     if (!remade)
         return remade.error();
-    if (wishes.scheme || wishes.skinning)
+    if (wishes.tune) {
+        if (const Status status = stage_->tune(context_->lastFrame()); !status)
+            return status.error();
+    }
+    if (wishes.scheme || wishes.skinning || wishes.tune)
         panel_->message.clear();
     if (stage_->needsOtherGroup()) {
         if (const Status status = stage_->changeGroup(context_->lastFrame()); !status) {
-            stage_->settings.levels = false;
+            stage_->settings.levels = stage_->settings.simulate = false;
             stage_->settings.view = host::shared::kViewShaded;
             return status.error();
         }

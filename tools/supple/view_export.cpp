@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Seconds that what is soft has moved before a picture.
+constexpr double kSimulated = 3.0;
+
 /// As few digits as lead back to the same angle.
 double degrees(float angle) {
     const auto exact = static_cast<double>(angle) * 180.0 / glm::pi<double>();
@@ -59,6 +62,9 @@ DrawOptions shownDraw(const ViewStage& stage, const DrawOptions& given, const Ex
     draw.chordError = settings.chordError;
     draw.ground = settings.ground;
     draw.alpha = wish.alpha;
+    draw.soft = wish.alpha ? SoftShown() : settings.soft;
+    if (settings.simulate && stage.softFacts().any())
+        draw.simulate = kSimulated;
     draw.parts.clear();
     if (std::find(settings.shownParts.begin(), settings.shownParts.end(), false) != settings.shownParts.end()) {
         for (size_t part = 0; part < settings.shownParts.size(); ++part) {

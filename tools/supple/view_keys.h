@@ -20,6 +20,7 @@ inline constexpr ViewKey kViewKeys[] = {
     {"D", "levels of detail, as the camera needs them"},
     {"Z", "freeze the camera that chooses levels"},
     {"J", "joints"},
+    {"B", "springs, colliders and painted vertices"},
     {"Ctrl + click on an eye", "that part alone, or all again"},
     {"L", "the studio's look, or fast while something moves"},
     {"O", "open a file; files can be dropped on the window, too"},

@@ -35,6 +35,28 @@ void drawJoints(const ViewStage& stage, float aspect) {
     }
 }
 
+/// What makes the figure soft, and in the upper right corner what the colors stand for.
+void drawSoft(const ViewStage& stage, float aspect) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const auto packed = [](const std::array<uint8_t, 3>& color) { return IM_COL32(color[0], color[1], color[2], 230); };
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    for (const ViewStage::ShownStroke& stroke : stage.shownStrokes(aspect)) {
+        const ImVec2 from(stroke.from.x * size.x, stroke.from.y * size.y),
+            to(stroke.to.x * size.x, stroke.to.y * size.y);
+        if (stroke.from == stroke.to)
+            draw.AddCircleFilled(from, 3.0f, packed(stroke.color));
+        else
+            draw.AddLine(from, to, packed(stroke.color), 1.5f);
+    }
+    const float line = ImGui::GetTextLineHeightWithSpacing(), side = ImGui::GetTextLineHeight();
+    ImVec2 at(size.x - 260.0f, 16.0f);
+    for (const SoftKey& key : softKeys(stage.softFacts(), stage.settings.soft)) {
+        draw.AddRectFilled(at, ImVec2(at.x + side, at.y + side), packed(key.color));
+        draw.AddText(ImVec2(at.x + line + 4.0f, at.y), ImGui::GetColorU32(ImGuiCol_Text), key.text.c_str());
+        at.y += line;
+    }
+}
+
 constexpr float kMargin = 16.0f, kInset = 12.0f, kBarHeight = 12.0f, kLeastWidth = 260.0f;
 
 /// The box in the lower right corner for something of this size, which begins at the point returned.
@@ -96,6 +118,8 @@ void drawScale(const Legend& legend) {
 void drawOverPicture(const ViewStage& stage, float aspect) {
     if (stage.settings.joints)
         drawJoints(stage, aspect);
+    if (stage.settings.soft.any())
+        drawSoft(stage, aspect);
     if (stage.settings.cageFaces)
         return;
     std::optional<Legend> legend = legendOf(stage.settings.view, viewFactsOf(stage.group(), stage.settings.joint));

@@ -77,6 +77,9 @@ void handleKeys(PanelState& state, ViewStage& stage, float aspect, PanelWishes& 
         stage.settings.view = (stage.settings.view + (isShifted(GLFW_KEY_V) ? kViewCount - 1 : 1)) % kViewCount;
     if (pressed(GLFW_KEY_J))
         stage.settings.joints = !stage.settings.joints;
+    if (pressed(GLFW_KEY_B))
+        stage.settings.soft.springs = stage.settings.soft.colliders = stage.settings.soft.painted =
+            !stage.settings.soft.any();
     if (pressed(GLFW_KEY_F1) || isShifted(GLFW_KEY_SLASH))
         stage.settings.keys = !stage.settings.keys;
     if (pressed(GLFW_KEY_P))
@@ -327,6 +330,30 @@ void buildSurface(ViewStage& stage, PanelWishes& wishes, float aspect) {
     ImGui::EndDisabled();
 }
 
+/// What swings, jiggles and hangs: whether it does, what is shown of it, and what its numbers are multiplied by.
+void buildSoft(ViewStage& stage, PanelWishes& wishes) {
+    if (!stage.softFacts().any() || !ImGui::CollapsingHeader("springs and cloth", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    ViewSettings& settings = stage.settings;
+    ImGui::Checkbox("move", &settings.simulate);
+    ImGui::SameLine();
+    ImGui::Checkbox("springs", &settings.soft.springs);
+    ImGui::Checkbox("colliders", &settings.soft.colliders);
+    ImGui::SameLine();
+    ImGui::Checkbox("painted", &settings.soft.painted);
+    struct Row {
+        const char* name;
+        float& factor;
+    };
+    for (const Row& row : {Row{"stiffness", settings.tuning.stiffness}, Row{"damping", settings.tuning.damping},
+                           Row{"gravity", settings.tuning.gravity}}) {
+        ImGui::SliderFloat(row.name, &row.factor, 0.1f, 10.0f, "%.2f x",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+        // The file is loaded anew when the slider is let go.
+        wishes.tune = wishes.tune || ImGui::IsItemDeactivatedAfterEdit();
+    }
+}
+
 /// The height that a list takes, of which more scrolls.
 float listHeight(float whole) {
     return std::min(whole + ImGui::GetStyle().WindowPadding.y, kListHeight);
@@ -558,6 +585,8 @@ void buildExport(PanelState& state, const ViewSettings& settings, PanelWishes& w
             ImGui::TextWrapped("The crossfade is left out: the command line has none.");
         if (settings.change)
             ImGui::TextWrapped("Transitions are left out: a picture shows the clip alone.");
+        if (settings.tuning != host::Tuning())
+            ImGui::TextWrapped("Other numbers of springs and cloth are left out: the file has its own.");
         if (settings.levelsFrozen)
             ImGui::TextWrapped("The frozen camera is left out: levels are chosen from where the picture is seen.");
     }
@@ -572,6 +601,7 @@ void buildSections(PanelState& state, ViewStage& stage, PanelWishes& wishes, flo
         buildPlayback(stage);
         ImGui::Separator();
         buildSurface(stage, wishes, aspect);
+        buildSoft(stage, wishes);
         buildLook(state, stage.settings);
         buildMorphs(stage);
         buildWarnings(stage);

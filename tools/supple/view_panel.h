@@ -39,6 +39,7 @@ struct PanelWishes {
     std::optional<uint32_t> rate;
     std::optional<SuppleScheme> scheme;
     std::optional<SuppleSkinning> skinning;
+    bool tune = false; ///< as the settings say
     std::optional<ExportWish> save;
     bool windowPicture = false; ///< of the next frame, panel and all
     bool close = false;

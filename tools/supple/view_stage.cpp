@@ -36,6 +36,7 @@ Result<std::unique_ptr<ViewStage>> ViewStage::create(host::Context& context, hos
     stage->settings.cageFaces = options.scheme == "cage";
     stage->settings.cageOverlay = options.cageOverlay;
     stage->settings.split = options.split;
+    stage->settings.soft = options.soft;
     stage->settings.levels = options.levels;
     stage->settings.chordError = options.chordError;
     stage->settings.ground = options.ground;
@@ -61,9 +62,8 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     Result<host::CharacterFile> character = host::readCharacterFile(file, reading_);
     if (!character)
         return character.error();
-    std::vector<std::string> warnings = character->character.warnings;
-    auto cage = std::make_shared<const cage::Cage>(character->character.cage);
-    Result<std::unique_ptr<host::Figure>> figure = host::createFigure(context_, std::move(*character));
+    const auto read = std::make_shared<const host::CharacterFile>(std::move(*character));
+    Result<std::unique_ptr<host::Figure>> figure = host::createFigure(context_, *read);
     if (!figure)
         return figure.error();
     Result<std::vector<float>> weights = host::morphWeights(**figure, morphSettings_);
@@ -103,8 +103,10 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     group_ = std::move(*group);
     playback_.forget();
     figure_ = std::move(*figure);
-    cage_ = std::move(cage);
-    warnings_ = std::move(warnings);
+    file_ = read;
+    cage_ = {read, &read->character.cage};
+    softFacts_ = SoftFacts(read->character);
+    warnings_ = read->character.warnings;
     morphs_ = host::targetsByName(*figure_);
     settings.morphWeights = std::move(*weights);
     extent_ = std::move(*extent);
@@ -113,6 +115,8 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     settings.fadeClip = SUPPLE_REST_POSE;
     settings.joint = 0;
     settings.time = 0.0;
+    settings.simulate = softFacts_.any();
+    settings.tuning = {};
     settings.shownParts = std::move(*shownParts);
     settings.rate = static_cast<int>(group_->edgeRate());
     passTimes_.clear();
@@ -140,7 +144,8 @@ Result<std::unique_ptr<host::FigureGroup>> ViewStage::createGroup(host::Figure& 
                                               .sharedSamples = sharedSamples_,
                                               .partSchemes = std::move(*partSchemes),
                                               .levels = levels,
-                                              .plays = plays});
+                                              .plays = plays,
+                                              .springs = plays && wantsSimulation()});
 }
 
 Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
@@ -163,6 +168,21 @@ Status ViewStage::setSkinning(SuppleSkinning skinning, uint64_t lastFrame) {
     return made;
 }
 
+Status ViewStage::tune(uint64_t lastFrame) {
+    Result<host::CharacterFile> file = host::tunedFile(*file_, settings.tuning);
+    Result<std::unique_ptr<host::Figure>> figure =
+        file ? host::createFigure(context_, std::move(*file)) : Result<std::unique_ptr<host::Figure>>(file.error());
+    if (!figure)
+        return figure.error();
+    std::swap(figure_, *figure);
+    const Status made = remakeGroup(static_cast<uint32_t>(settings.rate), lastFrame);
+    if (made)
+        retired_.back().figure = std::move(*figure);
+    else
+        std::swap(figure_, *figure);
+    return made;
+}
+
 Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
     Result<std::unique_ptr<host::FigureGroup>> group = createGroup(*figure_, rate, wantsLevels(), wantsPlayback());
     if (!group)
@@ -172,7 +192,7 @@ Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
         return binding.error();
     ++version_;
     group_->release();
-    retired_.push_back({lastFrame, std::move(group_), std::move(binding_)});
+    retired_.push_back({lastFrame, nullptr, std::move(group_), std::move(binding_)});
     group_ = std::move(*group);
     binding_ = std::move(*binding);
     playback_.forget();
@@ -286,6 +306,7 @@ Status ViewStage::evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t co
     desc.groupCount = 1;
     desc.before = host::kRendererReads;
     desc.after = host::kRendererReads;
+    recordedVersion_ = version_;
     return context_.check(suppleRecord(context_.handle(), commands, &desc), "suppleRecord");
 }
 
@@ -293,6 +314,7 @@ ViewStage::Shown ViewStage::shown() const {
     Shown shown{settings, camera_, levelCamera_, version_, shownValues_};
     // What is drawn over the picture changes nothing of it.
     shown.settings.panel = shown.settings.keys = shown.settings.joints = false;
+    shown.settings.soft = {};
     shown.settings.timingsPaused = shown.settings.timingsByPart = false;
     shown.settings.budgetMs = 0.0f;
     return shown;
@@ -342,11 +364,17 @@ bool ViewStage::wantsLevels() const {
 
 bool ViewStage::wantsPlayback() const {
     // Weights are measured in poses that are set, and two clips one over the other are set as well.
-    return settings.change && settings.view != host::shared::kViewWeights && settings.fadeClip == SUPPLE_REST_POSE;
+    return (settings.change || wantsSimulation()) && settings.view != host::shared::kViewWeights &&
+           settings.fadeClip == SUPPLE_REST_POSE;
+}
+
+bool ViewStage::wantsSimulation() const {
+    return settings.simulate && softFacts_.any();
 }
 
 bool ViewStage::needsOtherGroup() const {
-    return hasFigure() && (group_->hasLevels() != wantsLevels() || group_->plays() != wantsPlayback());
+    return hasFigure() && (group_->hasLevels() != wantsLevels() || group_->plays() != wantsPlayback() ||
+                           group_->swings() != (wantsPlayback() && wantsSimulation()));
 }
 
 Status ViewStage::changeGroup(uint64_t lastFrame) {
@@ -456,6 +484,26 @@ std::vector<ViewStage::ShownJoint> ViewStage::shownJoints(float aspect) const {
         joints[i] = {at.w > 0.0f, shift + glm::vec2(0.5f + 0.5f * at.x / at.w, 0.5f - 0.5f * at.y / at.w)};
     }
     return joints;
+}
+
+std::vector<ViewStage::ShownStroke> ViewStage::shownStrokes(float aspect) const {
+    std::vector<ShownStroke> shown;
+    if (recordedVersion_ != version_)
+        return shown;
+    const Result<std::vector<Stroke>> strokes = softStrokes(softFacts_, *group_, settings.soft);
+    if (!strokes)
+        return shown;
+    const glm::mat4 view = camera_.projection(aspect, extent_.bounds.radius()) * camera_.view();
+    const glm::vec2 shift(surfaceShift(), 0.0f);
+    const auto place = [&](const glm::vec4& at) {
+        return shift + glm::vec2(0.5f + 0.5f * at.x / at.w, 0.5f - 0.5f * at.y / at.w);
+    };
+    for (const Stroke& stroke : *strokes) {
+        const glm::vec4 from = view * glm::vec4(stroke.from, 1.0f), to = view * glm::vec4(stroke.to, 1.0f);
+        if (from.w > 0.0f && to.w > 0.0f)
+            shown.push_back({place(from), place(to), stroke.color});
+    }
+    return shown;
 }
 
 host::Scene ViewStage::scene(VkExtent2D extent) const {

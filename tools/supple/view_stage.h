@@ -3,7 +3,9 @@
 
 #include "cage/character.h"
 #include "host/surface_renderer.h"
+#include "tools/common/tuned_file.h"
 #include "tools/supple/render_stage.h"
+#include "tools/supple/soft_overlay.h"
 #include "tools/supple/time_history.h"
 #include "tools/supple/view_look.h"
 #include "tools/supple/view_playback.h"
@@ -27,6 +29,9 @@ struct ViewSettings {
     uint32_t view = 0;                            ///< host::shared::kView...
     uint32_t joint = 0;                           ///< whose weights kViewWeights shows
     bool joints = false;                          ///< drawn over the picture
+    SoftShown soft;                               ///< likewise
+    bool simulate = false;                        ///< springs swing, vertices jiggle, cloth hangs
+    host::Tuning tuning;                          ///< of their numbers; the figure has it once it is tuned
     std::optional<host::TransitionMethod> change; ///< of clips, while one plays; none: at once
     float changeSeconds = 0.3f;
     uint32_t fadeClip = SUPPLE_REST_POSE; ///< blended over `clip`; none: SUPPLE_REST_POSE
@@ -83,6 +88,10 @@ public:
     [[nodiscard]] Status setRate(uint32_t rate, uint64_t lastFrame);
     [[nodiscard]] Status setScheme(SuppleScheme scheme, uint64_t lastFrame);
     [[nodiscard]] Status setSkinning(SuppleSkinning skinning, uint64_t lastFrame);
+    /// Loads the figure anew with the numbers of settings.tuning. What swings begins at rest. Errors: the file is no
+    /// glTF; then all stays as it was.
+    [[nodiscard]] Status tune(uint64_t lastFrame);
+    [[nodiscard]] const SoftFacts& softFacts() const { return softFacts_; }
     /// Lets go of what the completed frames used.
     void retire(uint64_t completedFrame);
 
@@ -131,6 +140,12 @@ public:
         glm::vec2 at{0.0f};
     };
     [[nodiscard]] std::vector<ShownJoint> shownJoints(float aspect) const;
+    /// Lines and dots of settings.soft over the picture, in fractions of it, as the frame before had the figure.
+    struct ShownStroke {
+        glm::vec2 from{0.0f}, to{0.0f};
+        std::array<uint8_t, 3> color{};
+    };
+    [[nodiscard]] std::vector<ShownStroke> shownStrokes(float aspect) const;
 
     /// Supple's passes of a frame. Levels are chosen for a picture of this height.
     [[nodiscard]] Status evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t completedFrame, uint32_t height);
@@ -144,6 +159,7 @@ public:
 private:
     struct Retired {
         uint64_t frame = 0;
+        std::unique_ptr<host::Figure> figure; ///< the group's, if it goes too
         std::unique_ptr<host::FigureGroup> group;
         host::FigureBinding binding;
     };
@@ -162,6 +178,7 @@ private:
     [[nodiscard]] Status chooseLevels(uint32_t height);
     [[nodiscard]] bool wantsLevels() const;
     [[nodiscard]] bool wantsPlayback() const;
+    [[nodiscard]] bool wantsSimulation() const;
     /// What the settings ask to be measured.
     struct Values {
         uint32_t version = 0; ///< of the group; 0: nothing is measured
@@ -197,12 +214,15 @@ private:
     float startYaw_ = 0.0f;
     float startPitch_ = 0.0f;
     std::unique_ptr<host::Figure> figure_;
-    std::shared_ptr<const cage::Cage> cage_; ///< the figure's
+    std::shared_ptr<const host::CharacterFile> file_; ///< as it was read
+    std::shared_ptr<const cage::Cage> cage_;          ///< its own
+    SoftFacts softFacts_;
     std::vector<std::string> warnings_;
     std::vector<host::NamedTargets> morphs_;
     std::unique_ptr<host::FigureGroup> group_;
     host::FigureBinding binding_;
     uint32_t version_ = 0;                             ///< counts groups
+    uint32_t recordedVersion_ = 0;                     ///< of the group that a frame was recorded of
     Values values_;                                    ///< that the group has, or that are being measured
     std::future<Result<std::vector<float>>> measured_; ///< being computed
     uint32_t shownValues_ = 0;                         ///< counts measurements

@@ -11,7 +11,10 @@ bl_info = {
     "category": "Import-Export",
 }
 
-from . import colors, export, importer, panel, settings
+from . import colors, deformers, deformer_panels, export, importer, panel, settings, soft, springs
+
+
+MODULES = (settings, soft, springs, panel, deformer_panels)
 
 
 def _say(line):
@@ -31,6 +34,7 @@ class glTF2ImportUserExtension(importer.ImportHooks):
 def glTF2_pre_export_callback(export_settings):
     colors.mend_exporter()
     if settings.export_wanted():
+        deformers.sample_drivers(_say)
         export.switch_subdivision_off(export_settings)
 
 
@@ -39,13 +43,13 @@ def glTF2_post_export_callback(_export_settings):
 
 
 def register():
-    settings.register()
-    panel.register()
+    for module in MODULES:
+        module.register()
 
 
 def unregister():
-    panel.unregister()
-    settings.unregister()
+    for module in reversed(MODULES):
+        module.unregister()
 
 
 def draw_export(context, layout):

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 
-from . import cage, gltf_io, weights
+from . import cage, deformers, gltf_io, weights
 
 # Subdivision Surface modifiers that are switched off while the exporter runs. With "Apply Modifiers" it would export their
 # result instead of the cage; and it would evaluate them for each frame of each clip.
@@ -154,6 +154,7 @@ class ExportHooks:
         self._wanted = wanted
         self._report = report
         self._weights = {}  # by mesh of the file: what the node's hook completes
+        self._deformers = deformers.Deformers(report)
 
     # Later versions of the exporter have no skip_filter among the arguments.
     def gather_mesh_hook(self, gltf_mesh, blender_mesh, *_others):
@@ -168,15 +169,29 @@ class ExportHooks:
                 extensions[cage.EXTENSION] = gltf_io.extension(cage.EXTENSION, members)
                 primitive.extensions = extensions
             self._weights[id(gltf_mesh)] = (weights.VertexWeights(blender_mesh), found)
+            self._deformers.add_mesh(gltf_mesh, blender_mesh, found)
         except Unwritable as reason:
             self._report("%s: exported without its cage: %s" % (blender_mesh.name, reason))
 
     def gather_node_hook(self, gltf_node, blender_object, export_settings):
+        if blender_object is None or not self._wanted():
+            return
+        self._deformers.add_node(gltf_node, blender_object)
         mesh = getattr(gltf_node, "mesh", None)
-        if blender_object is None or mesh is None or blender_object.type != "MESH":
+        if mesh is None or blender_object.type != "MESH":
             return
         self._write_intent(mesh, blender_object)
         self._complete_weights(mesh, getattr(gltf_node, "skin", None), blender_object, export_settings)
+
+    def gather_joint_hook(self, gltf_node, blender_bone, _export_settings):
+        if self._wanted():
+            self._deformers.add_joint(gltf_node, blender_bone)
+
+    def gather_gltf_hook(self, _active_scene, _scenes, animations, _export_settings):
+        self._deformers.still_animations(animations)
+
+    def gather_gltf_extensions_hook(self, gltf, _export_settings):
+        self._deformers.write(gltf)
 
     def _complete_weights(self, mesh, skin, blender_object, export_settings):
         vertex_weights, found = self._weights.pop(id(mesh), (None, ()))

@@ -52,8 +52,39 @@ def integer_accessor(values):
     return _accessor(array.astype("<u4"), 5125)
 
 
-def float_accessor(values):
-    return _accessor(np.asarray(values, dtype="<f4"), 5126)
+def float_accessor(values, kind="SCALAR"):
+    """`values`: a number or a row an element."""
+    array = np.asarray(values, dtype="<f4")
+    return _accessor(array if kind == "SCALAR" else array.reshape(-1, {"VEC4": 4}[kind]), 5126, kind)
+
+
+def vertex_scalars(values):
+    """A vertex attribute of one number."""
+    return _accessor(np.asarray(values, dtype="<f4"), 5126, "SCALAR", ARRAY_BUFFER)
+
+
+def node(name, translation):
+    """A node of its own, without a mesh."""
+    return _first_module("io.com.gltf2_io").Node(
+        camera=None,
+        children=None,
+        extensions=None,
+        extras=None,
+        matrix=None,
+        mesh=None,
+        name=name,
+        rotation=None,
+        scale=None,
+        skin=None,
+        translation=translation,
+        weights=None,
+    )
+
+
+def use_extension(gltf, name):
+    """Where an extension stands inside another one."""
+    if name not in gltf.extensions_used:
+        gltf.extensions_used.append(name)
 
 
 def vertex_accessor(values):

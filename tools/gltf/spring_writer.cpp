@@ -1,0 +1,180 @@
+#include "tools/gltf/spring_writer.h"
+
+#include "cage/skeleton.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace supple::cage::gltf {
+namespace {
+
+constexpr const char* kSprings = "VRMC_springBone";
+constexpr const char* kMoreColliders = "VRMC_springBone_extended_collider";
+
+bool isExtended(const SpringCollider& collider) {
+    return collider.inside || collider.shape == ColliderShape::plane;
+}
+
+json shapeOf(const SpringCollider& collider) {
+    if (collider.shape == ColliderShape::plane) {
+        return {{"plane", {{"offset", numbers(collider.offset)}, {"normal", numbers(collider.tail)}}}};
+    }
+    const bool capsule = collider.shape == ColliderShape::capsule;
+    json shape = {{"offset", numbers(collider.offset)}, {"radius", collider.radius}};
+    if (capsule) {
+        shape["tail"] = numbers(collider.tail);
+    }
+    if (collider.inside) {
+        shape["inside"] = true;
+    }
+    return {{capsule ? "capsule" : "sphere", std::move(shape)}};
+}
+
+json writeCollider(const SpringCollider& collider) {
+    json written = {{"node", collider.node}};
+    if (isExtended(collider)) {
+        // Who does not know the extension has a sphere that nothing meets.
+        written["shape"] = {{"sphere", {{"offset", json::array({0, -10000, 0})}, {"radius", 0}}}};
+        written["extensions"][kMoreColliders] = {{"specVersion", "1.0"}, {"shape", shapeOf(collider)}};
+    } else {
+        written["shape"] = shapeOf(collider);
+    }
+    return written;
+}
+
+json writeJoint(const SpringJoint& joint) {
+    return {{"node", joint.node},
+            {"hitRadius", joint.hitRadius},
+            {"stiffness", joint.stiffness},
+            {"gravityPower", joint.gravityPower},
+            {"gravityDir", numbers(joint.gravityDirection)},
+            {"dragForce", joint.drag}};
+}
+
+json writeSpring(const Spring& spring, json joints) {
+    json written = {{"joints", std::move(joints)}};
+    if (!spring.name.empty()) {
+        written["name"] = spring.name;
+    }
+    if (spring.center != kNone) {
+        written["center"] = spring.center;
+    }
+    if (!spring.colliderGroups.empty()) {
+        written["colliderGroups"] = spring.colliderGroups;
+    }
+    return written;
+}
+
+/// Springs of VRM 0.x as chains.
+class Trees {
+public:
+    Trees(const Skeleton& skeleton, json& nodes)
+        : skeleton_(skeleton), nodes_(nodes), firstChild_(skeleton.nodes.size(), kNone), places_(restPlaces(skeleton)) {
+        for (uint32_t node = 0; node < skeleton.nodes.size(); ++node) {
+            if (const uint32_t parent = skeleton.nodes[node].parent; parent != kNone) {
+                firstChild_[parent] = std::min(firstChild_[parent], node);
+            }
+        }
+    }
+
+    void write(const Spring& spring, json& springs) {
+        std::vector<bool> written(spring.joints.size());
+        for (size_t j = 0; j < spring.joints.size(); ++j) {
+            if (written[j]) {
+                continue;
+            }
+            json joints = json::array();
+            size_t last = j;
+            for (size_t next = j; next < spring.joints.size(); next = childOf(spring, last)) {
+                joints.push_back(writeJoint(spring.joints[next]));
+                written[next] = true;
+                last = next;
+            }
+            if (const uint32_t tail = addTail(spring.joints[last].node); tail != kNone) {
+                joints.push_back({{"node", tail}});
+            }
+            springs.push_back(writeSpring(spring, std::move(joints)));
+        }
+    }
+
+private:
+    /// The joint that is the tail of another, or the number of joints: it is none of the spring.
+    [[nodiscard]] size_t childOf(const Spring& spring, size_t joint) const {
+        const uint32_t child = firstChild_[spring.joints[joint].node];
+        const auto found = std::find_if(spring.joints.begin(), spring.joints.end(),
+                                        [&](const SpringJoint& own) { return own.node == child; });
+        return static_cast<size_t>(found - spring.joints.begin());
+    }
+
+    /// A node at the tail of a chain's last joint; kNone if it has none, and so does not swing.
+    uint32_t addTail(uint32_t node) {
+        const uint32_t child = firstChild_[node], parent = skeleton_.nodes[node].parent;
+        const glm::dvec3 head(places_[node][3]);
+        glm::dvec3 tail = head;
+        if (child != kNone) {
+            tail = glm::dvec3(places_[child][3]);
+        } else if (parent != kNone) {
+            const glm::dvec3 way = head - glm::dvec3(places_[parent][3]);
+            const double length = glm::length(way);
+            tail += length > kShortestWay ? way * (kLeafTail / length) : glm::dvec3(0.0);
+        }
+        if (tail == head || glm::determinant(places_[node]) == 0.0) {
+            return kNone;
+        }
+        const auto added = static_cast<uint32_t>(nodes_.size());
+        const glm::vec3 offset(glm::inverse(places_[node]) * glm::dvec4(tail, 1.0));
+        nodes_.push_back({{"name", skeleton_.nodes[node].name + "_tail"}, {"translation", numbers(offset)}});
+        nodes_[node]["children"].push_back(added);
+        return added;
+    }
+
+    static constexpr double kLeafTail = 0.07, kShortestWay = 1e-6; // as skinning/spring_table.cpp has them
+
+    const Skeleton& skeleton_;
+    json& nodes_;
+    std::vector<uint32_t> firstChild_; ///< by node
+    std::vector<glm::dmat4> places_;
+};
+
+json writeSprings(const Character& character, json& root) {
+    json list = json::array();
+    Trees trees(character.skeleton, root["nodes"]);
+    for (const Spring& spring : character.springBones.springs) {
+        if (spring.isTree) {
+            trees.write(spring, list);
+            continue;
+        }
+        json joints = json::array();
+        for (const SpringJoint& joint : spring.joints) {
+            joints.push_back(writeJoint(joint));
+        }
+        list.push_back(writeSpring(spring, std::move(joints)));
+    }
+    return list;
+}
+
+} // namespace
+
+void writeSpringBones(const Character& character, json& root) {
+    const SpringBones& bones = character.springBones;
+    if (bones.springs.empty() && bones.colliders.empty()) {
+        return;
+    }
+    json written = {{"specVersion", "1.0"}};
+    for (const SpringCollider& collider : bones.colliders) {
+        written["colliders"].push_back(writeCollider(collider));
+    }
+    for (const std::vector<uint32_t>& group : bones.colliderGroups) {
+        written["colliderGroups"].push_back({{"colliders", group}});
+    }
+    if (!bones.springs.empty()) {
+        written["springs"] = writeSprings(character, root);
+    }
+    root["extensions"][kSprings] = std::move(written);
+    root["extensionsUsed"].push_back(kSprings);
+    if (std::any_of(bones.colliders.begin(), bones.colliders.end(), isExtended)) {
+        root["extensionsUsed"].push_back(kMoreColliders);
+    }
+}
+
+} // namespace supple::cage::gltf
