@@ -56,7 +56,7 @@ SuppleAsset assetOf(CrowdContext& context, const std::filesystem::path& path) {
     return asset;
 }
 
-glm::dvec3 vectorOf(const float* v) {
+glm::dvec3 asVector(const float* v) {
     return {v[0], v[1], v[2]};
 }
 
@@ -106,7 +106,7 @@ public:
             }
             ++hits;
             const glm::dvec3 d = glm::normalize(glm::dvec3(rays[2 * k + 1])),
-                             e = vectorOf(jets[k].position) - glm::dvec3(rays[2 * k]);
+                             e = asVector(jets[k].position) - glm::dvec3(rays[2 * k]);
             EXPECT_GE(glm::dot(e, d), -1e-5 * extent() - 1e-6 * glm::length(e));
             raise(beside, glm::length(e - glm::dot(e, d) * d) / (extent() + 0.1 * glm::length(e)));
         }
@@ -125,7 +125,7 @@ public:
             for (const glm::dvec3& sample : samples_) {
                 best = std::min(best, glm::distance(sample, glm::dvec3(places[k])));
             }
-            const double own = glm::distance(vectorOf(jets[k].position), glm::dvec3(places[k]));
+            const double own = glm::distance(asVector(jets[k].position), glm::dvec3(places[k]));
             farther += own > best + 1e-3 * extent() + 1e-6 * best ? 1 : 0;
         }
         keepFound();
@@ -133,7 +133,7 @@ public:
     void scatter(uint32_t count) {
         for (const SuppleSurfaceJet& jet : find(SUPPLE_FIND_SCATTER, count, nullptr)) {
             if (samples_.size() < kSamples) {
-                samples_.push_back(vectorOf(jet.position));
+                samples_.push_back(asVector(jet.position));
             }
         }
         for (uint32_t k = 0; k < count; k += 3) { // on borders and corners too
@@ -233,7 +233,7 @@ private:
             EXPECT_TRUE(p.a >= 0.0f && p.a <= 1.0f && p.b >= 0.0f && p.b <= 1.0f);
             double sum = 0.0;
             for (const float* v : {jets[k].position, jets[k].du, jets[k].dv}) {
-                sum += glm::length(vectorOf(v));
+                sum += glm::length(asVector(v));
             }
             EXPECT_TRUE(std::isfinite(sum)) << "face " << p.face << " at " << p.a << ", " << p.b;
         }

@@ -63,6 +63,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
         return character.error();
     std::vector<std::string> warnings = character->character.warnings;
     auto cage = std::make_shared<const cage::Cage>(character->character.cage);
+    cage::SkinWeights skinWeights = character->character.weights;
     Result<std::unique_ptr<host::Figure>> figure = host::createFigure(context_, std::move(*character));
     if (!figure)
         return figure.error();
@@ -104,6 +105,7 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
     playback_.forget();
     figure_ = std::move(*figure);
     cage_ = std::move(cage);
+    skinWeights_ = std::move(skinWeights);
     warnings_ = std::move(warnings);
     morphs_ = host::targetsByName(*figure_);
     settings.morphWeights = std::move(*weights);

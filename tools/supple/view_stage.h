@@ -61,6 +61,8 @@ public:
     [[nodiscard]] bool hasFigure() const { return group_ != nullptr; }
     [[nodiscard]] const host::Figure& figure() const { return *figure_; }
     [[nodiscard]] const host::FigureGroup& group() const { return *group_; }
+    /// The figure's, by vertex of its cage.
+    [[nodiscard]] const cage::SkinWeights& skinWeights() const { return skinWeights_; }
     /// What was repaired or left out when the file was read.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     /// The figure's morph targets by name.
@@ -198,6 +200,7 @@ private:
     float startPitch_ = 0.0f;
     std::unique_ptr<host::Figure> figure_;
     std::shared_ptr<const cage::Cage> cage_; ///< the figure's
+    cage::SkinWeights skinWeights_;          ///< the figure's
     std::vector<std::string> warnings_;
     std::vector<host::NamedTargets> morphs_;
     std::unique_ptr<host::FigureGroup> group_;
