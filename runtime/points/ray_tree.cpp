@@ -14,7 +14,7 @@ constexpr double kLongestRayStep = 0.3;
 constexpr double kShortestRayStep = 1e-8;
 /// A triangle is taken for a beginning if the ray passes it by so many of its widths: with less, of two points of a
 /// bent piece the farther may be found.
-constexpr double kSlack = 1.0;
+constexpr double kTriangleSlack = 1.0;
 /// A hit may be beside the ray by this part of the extent.
 constexpr double kRayTolerance = 2e-6;
 
@@ -79,7 +79,8 @@ private:
         const glm::dvec2 at = across(p), e = across(q) - at, f = across(r) - at;
         const double area = e.x * f.y - e.y * f.x;
         const glm::dvec2 weights = glm::dvec2(f.x * at.y - f.y * at.x, e.y * at.x - e.x * at.y) / area;
-        return weights.x >= -kSlack && weights.y >= -kSlack && weights.x + weights.y <= 1.0 + kSlack
+        return weights.x >= -kTriangleSlack && weights.y >= -kTriangleSlack &&
+                       weights.x + weights.y <= 1.0 + kTriangleSlack
                    ? std::optional(weights)
                    : std::nullopt;
     }
