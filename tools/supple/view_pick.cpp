@@ -5,10 +5,11 @@
 #include "tools/supple/command.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <imgui.h>
 #include <map>
+#include <string>
+#include <vector>
 
 namespace supple::tools {
 namespace {
@@ -85,7 +86,7 @@ void buildLines(const ViewStage& stage, const ViewPick& pick) {
         ImGui::Text("%5.1f %%  %s", 100.0 * double{joint.weight}, name.c_str());
     }
     if (pick.joints.size() > kMostJoints) {
-        ImGui::TextDisabled("and %zu more", pick.joints.size() - kMostJoints);
+        ImGui::TextDisabled("and %u more", static_cast<unsigned>(pick.joints.size() - kMostJoints));
     }
 }
 
