@@ -286,7 +286,7 @@ TEST_F(RandomPoints, LieOnTheSurfacesOfFiles) {
                         path.filename().c_str(), scheme, trial.hits, trials(), trial.beside, trial.farther, trial.skew,
                         seconds.count());
             EXPECT_LE(trial.beside, 5e-6) << path << ", scheme " << scheme;
-            EXPECT_LE(trial.farther, 0.002 * trials() + 1.0) << path << ", scheme " << scheme;
+            EXPECT_LE(trial.farther, 0.01 * trials()) << path << ", scheme " << scheme;
             EXPECT_LE(trial.skew, 2e-6) << path << ", scheme " << scheme;
             EXPECT_LE(trial.off, 1e3) << path << ", scheme " << scheme;
             ++characters;
