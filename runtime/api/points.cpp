@@ -28,28 +28,46 @@ std::optional<Error> faultOf(const SupplePointSetDesc& desc) {
 
 constexpr const char* kFindPoints = "suppleFindPoints";
 
+/// What is wrong with the numbers of a query.
+std::optional<Error> faultOfValues(const SupplePointQuery& query) {
+    if (query.values == nullptr) {
+        return std::nullopt;
+    }
+    const size_t each = query.kind == SUPPLE_FIND_RAY ? 6 : query.kind == SUPPLE_FIND_NEAREST ? 3 : 2;
+    const auto isSound = [](float x) { return std::abs(x) <= SUPPLE_MAX_COORDINATE; };
+    if (!std::all_of(query.values, query.values + each * query.count, isSound)) {
+        return Error{ErrorCode::notFinite, "values must be finite and within SUPPLE_MAX_COORDINATE"};
+    }
+    for (size_t ray = 0; query.kind == SUPPLE_FIND_RAY && ray < query.count; ++ray) {
+        const float* const direction = query.values + 6 * ray + 3;
+        if (direction[0] == 0.0f && direction[1] == 0.0f && direction[2] == 0.0f) {
+            return Error{ErrorCode::range, "ray " + std::to_string(ray) + " has a direction without a length"};
+        }
+    }
+    return std::nullopt;
+}
+
 /// The same of a query.
 std::optional<Error> faultOf(const SupplePointQuery& query) {
-    if (!within(query.kind, SUPPLE_FIND_SCATTER) || query.uvSet > (query.kind == SUPPLE_FIND_UV ? 1u : 0u) ||
-        (query.seed != 0 && query.kind != SUPPLE_FIND_SCATTER)) {
-        return Error{ErrorCode::range, "kind must be one of SupplePointQueryKind, uvSet and seed what it takes"};
+    const bool isUv = query.kind == SUPPLE_FIND_UV, isScatter = query.kind == SUPPLE_FIND_SCATTER;
+    if (!within(query.kind, SUPPLE_FIND_RAY) || query.uvSet > (isUv ? 1u : 0u) || (query.seed != 0 && !isScatter) ||
+        (query.pointsEach != 0 && !isUv) || query.reserved != 0) {
+        return Error{ErrorCode::range,
+                     "kind must be one of SupplePointQueryKind, uvSet, seed and pointsEach what it takes"};
     }
-    const bool takesValues = query.kind != SUPPLE_FIND_SCATTER;
-    if (takesValues ? query.values == nullptr && query.count > 0 : query.values != nullptr) {
-        return Error{ErrorCode::nullPointer, "values must be there for NEAREST and UV, and null for SCATTER"};
+    if (isScatter ? query.values != nullptr : query.values == nullptr && query.count > 0) {
+        return Error{ErrorCode::nullPointer, "values must be null for SCATTER, and there for all others"};
     }
     if ((query.cage == nullptr) != (query.cageVertexCount == 0)) {
         return Error{ErrorCode::nullPointer, "cage and cageVertexCount do not agree"};
     }
-    if (query.cage != nullptr && query.kind == SUPPLE_FIND_UV) {
+    if (query.cage != nullptr && isUv) {
         return Error{ErrorCode::argument, "UV takes no cage: texture coordinates are those of the file"};
     }
-    const size_t numbers = query.kind == SUPPLE_FIND_NEAREST ? 3 : 2;
-    const auto isSound = [](float x) { return std::abs(x) <= SUPPLE_MAX_COORDINATE; };
-    if (query.values != nullptr && !std::all_of(query.values, query.values + numbers * query.count, isSound)) {
-        return Error{ErrorCode::notFinite, "values must be finite and within SUPPLE_MAX_COORDINATE"};
+    if (runtime::pointsOf(query) > UINT32_MAX) {
+        return Error{ErrorCode::range, "count times pointsEach is more than 32 bits number"};
     }
-    return std::nullopt;
+    return faultOfValues(query);
 }
 
 } // namespace
@@ -68,9 +86,10 @@ SuppleResult suppleFindPoints(SuppleContext handle, SuppleGroup group, const Sup
             return refuse(context, found, ErrorCode::nullPointer, kFindPoints, "out is null");
         }
         const auto surfaces = Context::surfacesOf(found);
-        const Status status =
-            surfaces ? runtime::findPoints(*surfaces, found.points().finder(), query, std::span(out, query.count))
-                     : Status(surfaces.error());
+        const Status status = surfaces
+                                  ? runtime::findPoints(*surfaces, found.points().finder(), query,
+                                                        std::span(out, static_cast<size_t>(runtime::pointsOf(query))))
+                                  : Status(surfaces.error());
         return status ? SUPPLE_OK : refuse(context, found, status.error().code, kFindPoints, status.error().message);
     });
 }

@@ -2,6 +2,7 @@
 
 #include "runtime/cpu_group.h"
 #include "runtime/points/point_pieces.h"
+#include "runtime/points/ray_tree.h"
 #include "runtime/points/seed_tree.h"
 #include "runtime/points/uv_tree.h"
 
@@ -23,6 +24,7 @@ constexpr int kRounds = 10;
 constexpr double kLongestStep = 0.25;
 /// Places are equally near if their distances differ by less than this part of the extent.
 constexpr double kTie = 1e-6;
+constexpr SuppleSurfacePoint kNoPoint{SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
 
 glm::dvec3 vectorAt(const float* v) {
     return {v[0], v[1], v[2]};
@@ -151,6 +153,7 @@ public:
             return built;
         }
         tree_.reset();
+        rays_.reset();
         return success();
     }
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
@@ -160,6 +163,10 @@ public:
 
     [[nodiscard]] Status findNearest(const float* positions, std::span<SuppleSurfacePoint> out);
     [[nodiscard]] Status scatter(uint32_t seed, std::span<SuppleSurfacePoint> out) const;
+    /// `rays`: six numbers each.
+    [[nodiscard]] Status cast(const float* rays, std::span<SuppleSurfacePoint> out);
+    /// What the surface is at points; zeros where there is none.
+    [[nodiscard]] Status evaluate(std::span<const SuppleSurfacePoint> points, SuppleSurfaceJet* jets) const;
 
 private:
     /// All cells of all pieces, with the jets at their middles.
@@ -170,6 +177,7 @@ private:
     std::vector<Piece> pieces_;
     CpuPose pose_;
     std::optional<SeedTree> tree_; ///< made when a nearest point is asked for
+    std::optional<RayTree> rays_;  ///< made when a ray is
     double tie_ = 0.0;
 };
 
@@ -302,6 +310,40 @@ Status PointFinder::scatter(uint32_t seed, std::span<SuppleSurfacePoint> out) co
     return success();
 }
 
+Status PointFinder::cast(const float* rays, std::span<SuppleSurfacePoint> out) {
+    if (!rays_) {
+        Result<RayTree> planted = RayTree::plant(pose_, pieces_);
+        if (!planted) {
+            return planted.error();
+        }
+        rays_.emplace(std::move(*planted));
+    }
+    for (size_t k = 0; k < out.size(); ++k) {
+        const auto hit = rays_->find({vectorAt(rays + 6 * k), vectorAt(rays + 6 * k + 3)});
+        if (!hit) {
+            return hit.error();
+        }
+        out[k] = *hit ? pieces_[(*hit)->piece].at((*hit)->a, (*hit)->b) : kNoPoint;
+    }
+    return success();
+}
+
+Status PointFinder::evaluate(std::span<const SuppleSurfacePoint> points, SuppleSurfaceJet* jets) const {
+    const auto isFound = [](const SuppleSurfacePoint& point) { return point.face != SUPPLE_NO_FACE; };
+    for (size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+        end = begin + 1;
+        while (end < points.size() && isFound(points[end]) == isFound(points[begin])) {
+            ++end;
+        }
+        if (!isFound(points[begin])) {
+            std::fill(jets + begin, jets + end, SuppleSurfaceJet{});
+        } else if (Status made = pose_.evaluate(points.subspan(begin, end - begin), jets + begin, {}); !made) {
+            return made;
+        }
+    }
+    return success();
+}
+
 namespace {
 
 Status findUvs(const CpuGroup& group, const SupplePointQuery& query, std::span<SuppleSurfacePoint> out) {
@@ -312,10 +354,13 @@ Status findUvs(const CpuGroup& group, const SupplePointQuery& query, std::span<S
     }
     const std::vector<Piece> pieces = piecesOf(group);
     const UvTree tree(cage, uvs, pieces);
-    for (size_t k = 0; k < out.size(); ++k) {
-        out[k] = {SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
-        if (const auto found = tree.find({query.values[2 * k], query.values[2 * k + 1]})) {
-            out[k] = pieces[found->piece].at(std::clamp(found->at.x, 0.0, 1.0), std::clamp(found->at.y, 0.0, 1.0));
+    const size_t each = std::max(1u, query.pointsEach);
+    std::fill(out.begin(), out.end(), kNoPoint);
+    for (size_t k = 0; k < query.count; ++k) {
+        const auto found = tree.find({query.values[2 * k], query.values[2 * k + 1]}, each);
+        for (size_t i = 0; i < found.size(); ++i) {
+            const glm::dvec2 at = glm::clamp(found[i].at, 0.0, 1.0);
+            out[k * each + i] = pieces[found[i].piece].at(at.x, at.y);
         }
     }
     return success();
@@ -326,7 +371,9 @@ Status findUvs(const CpuGroup& group, const SupplePointQuery& query, std::span<S
 Status findPoints(const std::shared_ptr<const CpuGroup>& group, std::shared_ptr<PointFinder>& kept,
                   const SupplePointQuery& query, std::span<SuppleSurfacePoint> out) {
     if (query.kind == SUPPLE_FIND_UV) {
-        return findUvs(*group, query, out);
+        if (Status found = findUvs(*group, query, out); !found || query.jets == nullptr) {
+            return found;
+        }
     }
     const cage::Cage& cage = group->cage();
     if (query.cage != nullptr && query.cageVertexCount != cage.vertexCount()) {
@@ -347,8 +394,15 @@ Status findPoints(const std::shared_ptr<const CpuGroup>& group, std::shared_ptr<
     if (finder->pieces().empty()) {
         return Error{ErrorCode::argument, "the surfaces have no faces"};
     }
-    return query.kind == SUPPLE_FIND_NEAREST ? finder->findNearest(query.values, out)
-                                             : finder->scatter(query.seed, out);
+    Status found = success(); // what UV is asked for is there
+    if (query.kind == SUPPLE_FIND_NEAREST) {
+        found = finder->findNearest(query.values, out);
+    } else if (query.kind == SUPPLE_FIND_RAY) {
+        found = finder->cast(query.values, out);
+    } else if (query.kind == SUPPLE_FIND_SCATTER) {
+        found = finder->scatter(query.seed, out);
+    }
+    return found && query.jets != nullptr ? finder->evaluate(out, query.jets) : found;
 }
 
 } // namespace supple::runtime

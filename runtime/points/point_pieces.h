@@ -39,4 +39,30 @@ struct Cell {
     return sides <= 8 ? 4 : sides <= 32 ? 2 : 1;
 }
 
+/// Samples of a piece stand in rows of `b`; those of a triangle become shorter.
+struct SampleGrid {
+    bool isQuad = false;
+    uint32_t along = 0;
+
+    [[nodiscard]] uint32_t rowLength(uint32_t row) const { return along + 1 - (isQuad ? 0 : row); }
+    [[nodiscard]] uint32_t number(uint32_t i, uint32_t j) const {
+        return isQuad ? j * (along + 1) + i : j * (along + 1) - j * (j - 1) / 2 + i;
+    }
+    [[nodiscard]] bool has(uint32_t i, uint32_t j) const { return j <= along && i < rowLength(j); }
+    [[nodiscard]] glm::dvec2 at(uint32_t i, uint32_t j) const { return glm::dvec2(i, j) / static_cast<double>(along); }
+
+    /// Calls visit(three samples, each its two numbers).
+    template <class F>
+    void forEachTriangle(F&& visit) const {
+        for (uint32_t j = 0; j < along; ++j) {
+            for (uint32_t i = 0; i + 1 < rowLength(j); ++i) {
+                visit(glm::uvec2(i, j), glm::uvec2(i + 1, j), glm::uvec2(i, j + 1));
+                if (has(i + 1, j + 1)) {
+                    visit(glm::uvec2(i + 1, j + 1), glm::uvec2(i, j + 1), glm::uvec2(i + 1, j));
+                }
+            }
+        }
+    }
+};
+
 } // namespace supple::runtime

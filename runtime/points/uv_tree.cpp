@@ -9,6 +9,7 @@ namespace supple::runtime {
 UvTree::UvTree(const cage::Cage& cage, std::span<const glm::vec2> uvs, std::span<const Piece> pieces)
     : order_(pieces.size()) {
     pieces_.reserve(pieces.size());
+    faces_.reserve(pieces.size());
     std::vector<UvBox> boxes;
     boxes.reserve(pieces.size());
     glm::dvec2 middle(0.0);
@@ -21,6 +22,7 @@ UvTree::UvTree(const cage::Cage& cage, std::span<const glm::vec2> uvs, std::span
             }
         }
         pieces_.emplace_back(cage, uvs, piece, middle);
+        faces_.push_back(piece.face);
         boxes.push_back(pieces_.back().box());
     }
     std::iota(order_.begin(), order_.end(), 0u);
@@ -52,33 +54,47 @@ uint32_t UvTree::split(uint32_t begin, uint32_t end, std::span<const UvBox> boxe
     return number;
 }
 
-std::optional<UvTree::Found> UvTree::find(const glm::dvec2& uv) const {
-    std::optional<Found> found;
+std::vector<UvTree::Found> UvTree::find(const glm::dvec2& uv, size_t most) const {
+    std::vector<Found> found;
     if (!nodes_.empty()) {
-        search(0, uv, found);
+        search(0, uv, most, found);
     }
     return found;
 }
 
-void UvTree::search(uint32_t number, const glm::dvec2& uv, std::optional<Found>& found) const {
+void UvTree::search(uint32_t number, const glm::dvec2& uv, size_t most, std::vector<Found>& found) const {
     const Node& node = nodes_[number];
-    if (!node.box.covers(uv) || (found && found->piece < node.first)) {
+    if (!node.box.covers(uv) || (found.size() == most && found.back().piece < node.first)) {
         return;
     }
     if (node.second != 0) {
-        search(number + 1, uv, found);
-        search(node.second, uv, found);
+        search(number + 1, uv, most, found);
+        search(node.second, uv, most, found);
         return;
     }
     for (uint32_t k = node.begin; k < node.end; ++k) {
         const uint32_t piece = order_[k];
-        if (found && found->piece < piece) {
+        if (found.size() == most && found.back().piece < piece) {
             continue;
         }
         if (const std::optional<glm::dvec2> at = pieces_[piece].find(uv)) {
-            found = Found{piece, *at};
+            take({piece, *at}, most, found);
         }
     }
+}
+
+void UvTree::take(const Found& own, size_t most, std::vector<Found>& found) const {
+    const auto isOfItsFace = [&](const Found& other) { return faces_[other.piece] == faces_[own.piece]; };
+    if (const auto same = std::find_if(found.begin(), found.end(), isOfItsFace); same != found.end()) {
+        if (own.piece < same->piece) {
+            *same = own;
+        }
+        return;
+    }
+    found.insert(std::upper_bound(found.begin(), found.end(), own,
+                                  [](const Found& a, const Found& b) { return a.piece < b.piece; }),
+                 own);
+    found.resize(std::min(found.size(), most));
 }
 
 } // namespace supple::runtime

@@ -86,7 +86,7 @@ private:
     uint32_t count_ = 3;
 };
 
-/// Finds the piece that covers coordinates, by a tree of boxes that halves the pieces along the longest side.
+/// Finds the pieces that cover coordinates, by a tree of boxes that halves the pieces along the longest side.
 class UvTree {
 public:
     /// `uvs`: by corner of the cage.
@@ -96,8 +96,8 @@ public:
         uint32_t piece = 0;
         glm::dvec2 at{0.0};
     };
-    /// Of several pieces, the first.
-    [[nodiscard]] std::optional<Found> find(const glm::dvec2& uv) const;
+    /// Of the faces that cover the coordinates, the first `most`, one piece of each.
+    [[nodiscard]] std::vector<Found> find(const glm::dvec2& uv, size_t most) const;
 
 private:
     struct Node {
@@ -109,9 +109,12 @@ private:
     static constexpr uint32_t kLeaf = 4;
 
     uint32_t split(uint32_t begin, uint32_t end, std::span<const UvBox> boxes);
-    void search(uint32_t node, const glm::dvec2& uv, std::optional<Found>& found) const;
+    void search(uint32_t node, const glm::dvec2& uv, size_t most, std::vector<Found>& found) const;
+    /// Puts a piece into what is found, in rising order.
+    void take(const Found& own, size_t most, std::vector<Found>& found) const;
 
     std::vector<PieceUvs> pieces_;
+    std::vector<uint32_t> faces_; ///< by piece
     std::vector<uint32_t> order_;
     std::vector<Node> nodes_;
 };

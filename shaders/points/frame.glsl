@@ -44,6 +44,8 @@ PointFrame frameOf(vec3 a, vec3 b, bool isMirrored) {
     vec3 keptNormal = SELECT3(isNothing, vec3(0.0, 0.0, 1.0), acrossOf(kept));
     vec3 normal = unitOf(SELECT3(isFlat, keptNormal, product));
     precise vec3 turned = along + crossed(across, normal);
+    // Where A and B are nearly parallel, rounding has leaned the normal towards them.
+    turned = turned - dot3(turned, normal) * normal;
     vec3 tangent = unitOf(SELECT3(isFlat, kept, turned));
     // The scale is a power of two, and so is its inverse.
     float back = uintBitsToFloat((254u << 23u) - floatBitsToUint(scale));

@@ -1,12 +1,8 @@
 // Points by where they are: nearest to places, at texture coordinates, spread by area.
-#include "runtime/arrays/character_arrays.h"
-#include "runtime/cpu_group.h"
-#include "runtime/points/find_points.h"
-#include "runtime/points/point_stencils.h"
+#include "tests/support/found_points.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_zoo.h"
 #include "tests/support/worst.h"
-#include "tools/common/cage_arrays.h"
 #include "tools/common/procedural.h"
 
 #include <cmath>
@@ -20,54 +16,6 @@ namespace {
 
 constexpr SuppleScheme kFindSchemes[] = {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP,
                                          SUPPLE_SCHEME_POLYGONS, SUPPLE_SCHEME_CAGE};
-
-using Surfaces = std::shared_ptr<const runtime::CpuGroup>;
-
-Surfaces surfacesOf(const cage::Cage& cage, SuppleScheme scheme) {
-    const host::CageArrays arrays(cage);
-    Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "test cage");
-    EXPECT_TRUE(character.ok());
-    SuppleGroupDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.scheme = scheme;
-    auto made = runtime::surfacesOf(runtime::Prepared::of(std::move(*character)), desc);
-    EXPECT_TRUE(made.ok()) << (made ? "" : made.error().message);
-    return made ? *made : nullptr;
-}
-
-SupplePointQuery queryOf(SupplePointQueryKind kind, size_t count, const float* values = nullptr) {
-    SupplePointQuery query{};
-    query.structSize = sizeof(query);
-    query.kind = kind;
-    query.count = static_cast<uint32_t>(count);
-    query.values = values;
-    return query;
-}
-
-std::vector<SuppleSurfacePoint> found(const Surfaces& surfaces, const SupplePointQuery& query) {
-    std::vector<SuppleSurfacePoint> points(query.count);
-    std::shared_ptr<runtime::PointFinder> kept;
-    const Status status = runtime::findPoints(surfaces, kept, query, points);
-    EXPECT_TRUE(status) << (status ? "" : status.error().message);
-    return points;
-}
-
-struct At {
-    std::vector<glm::vec3> positions, normals;
-};
-At at(const Surfaces& surfaces, const std::vector<SuppleSurfacePoint>& points) {
-    runtime::CpuPose pose(surfaces);
-    std::vector<SuppleSurfaceJet> jets(points.size());
-    EXPECT_TRUE(pose.build(reinterpret_cast<const std::byte*>(surfaces->cage().positions.data()), 12, {}));
-    EXPECT_TRUE(pose.evaluate(points, jets.data(), {}));
-    At result;
-    for (const SuppleSurfaceJet& jet : jets) {
-        result.positions.emplace_back(jet.position[0], jet.position[1], jet.position[2]);
-        result.normals.push_back(glm::normalize(
-            glm::cross(glm::vec3(jet.du[0], jet.du[1], jet.du[2]), glm::vec3(jet.dv[0], jet.dv[1], jet.dv[2]))));
-    }
-    return result;
-}
 
 /// A point is the nearest to itself, and to places straight above it.
 TEST(FindPoints, TheNearestToAPointIsThePoint) {
@@ -230,6 +178,26 @@ TEST(FindPoints, TheLowestOfTheFacesThatCoverACoordinate) {
         covered += expected != SUPPLE_NO_FACE ? 1 : 0;
     }
     EXPECT_GT(covered, 500u);
+    // All of them, in rising order, as far as there is room.
+    SupplePointQuery query = queryOf(SUPPLE_FIND_UV, uvs.size(), &uvs[0].x);
+    query.pointsEach = 3;
+    const auto several = found(surfaces, query);
+    ASSERT_EQ(several.size(), 3 * uvs.size());
+    size_t full = 0;
+    for (size_t k = 0; k < uvs.size(); ++k) {
+        size_t place = 0;
+        for (uint32_t face = 0; face < lows.size() && place < 3; ++face) {
+            const glm::vec2 in = (uvs[k] - lows[face]) / sizes[face];
+            if (in.x >= 0.0f && in.y >= 0.0f && in.x <= 1.0f && in.y <= 1.0f) {
+                EXPECT_EQ(several[3 * k + place++].face, face) << k;
+            }
+        }
+        full += place == 3 ? 1 : 0;
+        for (; place < 3; ++place) {
+            EXPECT_EQ(several[3 * k + place].face, SUPPLE_NO_FACE) << k;
+        }
+    }
+    EXPECT_GT(full, 100u);
 }
 
 /// What a search of the bind pose has made stays for the next one, and not for another cage.

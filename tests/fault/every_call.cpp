@@ -336,6 +336,12 @@ private:
         query.values = place;
         SuppleSurfacePoint nearest{};
         call("suppleFindPoints", [&] { return suppleFindPoints(handle(), groups_[0], &query, &nearest); });
+        const float ray[] = {0.5f, 1.0f, 9.0f, 0.0f, 0.0f, -1.0f};
+        SuppleSurfaceJet jet{};
+        query.kind = SUPPLE_FIND_RAY;
+        query.values = ray;
+        query.jets = &jet;
+        call("suppleFindPoints", [&] { return suppleFindPoints(handle(), groups_[0], &query, &nearest); });
         desc.group = groups_[1];
         call("suppleCreatePointSet", [&] { return suppleCreatePointSet(handle(), &desc, &set); });
         call("suppleDestroyPointSet", [&] { return suppleDestroyPointSet(handle(), set); });

@@ -2695,7 +2695,9 @@ void points(Rows& r) {
     });
     constexpr const char* kFind = "suppleFindPoints";
     using Query = SupplePointQuery;
-    static constexpr float kPlaces[] = {0, 0, 0, 1, 2, 3}, kBadPlaces[] = {0, 0, 0, 1, kNan, 3};
+    static constexpr float kPlaces[] = {0, 0, 0, 1, 2, 3}, kBadPlaces[] = {0, 0, 0, 1, kNan, 3},
+                           kRays[] = {0, 0, 5, 0, 0, -1, 0, 9, 0, 1, 0, 0},
+                           kStandingRays[] = {0, 0, 5, 0, 0, -1, 0, 9, 0, 0, 0, 0};
     const auto query = [](World&) {
         Query made{};
         made.structSize = sizeof(made);
@@ -2723,15 +2725,32 @@ void points(Rows& r) {
     };
     askedOtherwise("values null", SUPPLE_MESSAGE_NULL_POINTER, [](Query& q) { q.values = nullptr; });
     askedOtherwise("values NaN", SUPPLE_MESSAGE_NOT_FINITE, [](Query& q) { q.values = kBadPlaces; });
-    askedOtherwise("kind", kRange, [](Query& q) { q.kind = static_cast<SupplePointQueryKind>(3); });
+    askedOtherwise("kind", kRange, [](Query& q) { q.kind = static_cast<SupplePointQueryKind>(4); });
     askedOtherwise("a seed for NEAREST", kRange, [](Query& q) { q.seed = 1; });
     askedOtherwise("a UV set for NEAREST", kRange, [](Query& q) { q.uvSet = 1; });
+    askedOtherwise("several points for NEAREST", kRange, [](Query& q) { q.pointsEach = 2; });
+    askedOtherwise("reserved", kRange, [](Query& q) { q.reserved = 1; });
+    askedOtherwise("more points than are numbered", kRange, [](Query& q) {
+        q.kind = SUPPLE_FIND_UV;
+        q.pointsEach = UINT32_MAX;
+    });
+    askedOtherwise("a ray without a direction", kRange, [](Query& q) {
+        q.kind = SUPPLE_FIND_RAY;
+        q.values = kStandingRays;
+    });
     askedOtherwise("a cage of no vertices", SUPPLE_MESSAGE_NULL_POINTER, [](Query& q) { q.cage = kPlaces; });
 #if defined(SUPPLE_WITH_CPU)
     r.description<Query>(kFind, "query", query, find);
     askedOtherwise("another cage", kRange, [](Query& q) {
         q.cage = kPlaces;
         q.cageVertexCount = 2;
+    });
+    r.accept(kFind, "RAY", [=](World& w) {
+        Query given = query(w);
+        given.kind = SUPPLE_FIND_RAY;
+        given.values = kRays;
+        given.jets = w.plain<SuppleSurfaceJet>(2);
+        return find(w, &given);
     });
     r.accept(kFind, "SCATTER", [=](World& w) {
         Query given = query(w);

@@ -427,6 +427,15 @@ TEST_F(SurfacePoints, KeepTheirTangents) {
         EXPECT_NEAR(glm::dot(p.normal, p.tangent), 0.0f, 1e-6f);
         EXPECT_EQ(p.area, 0.0f);
     }
+    // A sliver has one, however thin it is.
+    for (const float width : {1e-2f, 1e-4f, 1e-5f, 1e-6f}) {
+        const glm::vec3 a(1.0f, 0.7f, 0.3f), b = 1.1f * a + width * glm::vec3(-0.5f, 0.2f, 0.9f);
+        const PointOnDevice p = frame({glm::vec4(0, 0, 0, 1), glm::vec4(a, 1), glm::vec4(a + b, 1), glm::vec4(b, 1)});
+        EXPECT_NEAR(glm::length(p.tangent), 1.0f, 1e-6f) << width;
+        EXPECT_NEAR(glm::length(p.normal), 1.0f, 1e-6f) << width;
+        EXPECT_NEAR(glm::dot(p.normal, p.tangent), 0.0f, 1e-6f) << width;
+        EXPECT_LE(glm::distance(p.bitangent, glm::cross(p.normal, p.tangent)), 1e-6f) << width;
+    }
 }
 
 /// Sets follow a group that is made anew, and go where their faces are gone.

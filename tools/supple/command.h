@@ -51,6 +51,7 @@ void bindView(CLI::App& app, int& exitCode);
 void bindConvert(CLI::App& app, int& exitCode);
 void bindCook(CLI::App& app, int& exitCode);
 void bindPoints(CLI::App& app, int& exitCode);
+void bindPick(CLI::App& app, int& exitCode);
 void bindReplay(CLI::App& app, int& exitCode);
 
 } // namespace supple::tools

@@ -44,6 +44,7 @@ int run(const std::vector<std::string>& arguments) {
     bindConvert(app, exitCode);
     bindCook(app, exitCode);
     bindPoints(app, exitCode);
+    bindPick(app, exitCode);
     bindReplay(app, exitCode);
 
     try {

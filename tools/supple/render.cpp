@@ -16,7 +16,6 @@ namespace supple::tools {
 
 namespace {
 
-constexpr float kMargin = 0.07f;
 /// Poses looked at to find the floor a clip is played on.
 constexpr uint32_t kFloorPoses = 9;
 /// Sheets are laid out to come near to this shape, width by height, with few places left empty.
@@ -100,7 +99,7 @@ host::Scene sceneFor(const std::vector<Shown>& all, const RenderOptions& options
     }
     scene.bounds = host::boundsOf(points);
     scene.camera = options.eye.empty() ? host::frameCamera(points, radians(options.draw.yaw),
-                                                           radians(options.draw.pitch), framed, kMargin)
+                                                           radians(options.draw.pitch), framed, kPictureMargin)
                                        : placedCamera(options, scene.bounds);
     scene.lightYaw = scene.camera.yaw;
     if (options.zoom > 1.0)

@@ -26,6 +26,9 @@ struct RenderOptions {
     DrawOptions draw;
 };
 
+/// What is left free on every side of a figure that fills the picture.
+inline constexpr float kPictureMargin = 0.07f;
+
 /// draw.scheme "all": a sheet of the schemes that take the cage, each drawn from the same place in the same light.
 inline constexpr const char* kAllSchemes = "all";
 

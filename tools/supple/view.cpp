@@ -342,6 +342,13 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
     }
     if (!stage_->hasFigure())
         return success();
+    if (wishes.pick) {
+        window_->waitIdle(context_->lastFrame());
+        Result<std::optional<ViewPick>> picked = pickAt(*stage_, *wishes.pick, aspect());
+        if (!picked)
+            return picked.error();
+        panel_->picked = std::move(*picked);
+    }
     if (wishes.save) {
         export_.start(*stage_, options_.draw, *wishes.save);
         if (wishes.save->kind == ExportKind::commandLine)

@@ -658,8 +658,11 @@ PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect) {
         drawOverPicture(stage, aspect);
     buildKeys(stage);
     buildMessage(state);
-    if (stage.hasFigure())
+    if (stage.hasFigure()) {
+        buildPick(stage, aspect, state.picked);
         moveCamera(stage);
+        wishes.pick = clickedPlace();
+    }
     handleKeys(state, stage, aspect, wishes);
     return wishes;
 }

@@ -4,6 +4,7 @@
 #include "host/window.h"
 #include "tools/supple/file_browser.h"
 #include "tools/supple/view_export.h"
+#include "tools/supple/view_pick.h"
 #include "tools/supple/view_stage.h"
 
 #include <optional>
@@ -31,6 +32,7 @@ struct PanelState {
     int exportSize[2] = {1280, 960};
     bool exportAlpha = false;
     std::vector<std::string> recent; ///< files that were opened last
+    std::optional<ViewPick> picked;  ///< by the last click
 };
 
 /// What the user asked for that cannot be done while the panel is built.
@@ -41,7 +43,8 @@ struct PanelWishes {
     std::optional<SuppleSkinning> skinning;
     bool tune = false; ///< as the settings say
     std::optional<ExportWish> save;
-    bool windowPicture = false; ///< of the next frame, panel and all
+    std::optional<glm::vec2> pick; ///< a place in the picture
+    bool windowPicture = false;    ///< of the next frame, panel and all
     bool close = false;
 };
 

@@ -66,6 +66,8 @@ public:
     [[nodiscard]] bool hasFigure() const { return group_ != nullptr; }
     [[nodiscard]] const host::Figure& figure() const { return *figure_; }
     [[nodiscard]] const host::FigureGroup& group() const { return *group_; }
+    /// The figure's, by vertex of its cage.
+    [[nodiscard]] const cage::SkinWeights& skinWeights() const { return file_->character.weights; }
     /// What was repaired or left out when the file was read.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
     /// The figure's morph targets by name.

@@ -449,9 +449,9 @@ public:
         return suppleSetCapacity(context_, handle_, capacity);
     }
     [[nodiscard]] SuppleResult setRate(uint32_t rate) const { return suppleSetRate(context_, handle_, rate); }
-    /// Points of its surfaces, into `out` (resized to query.count).
+    /// Points of its surfaces, into `out`, which is resized to query.count, or so many times query.pointsEach.
     [[nodiscard]] SuppleResult findPoints(const SupplePointQuery& query, std::vector<SuppleSurfacePoint>& out) const {
-        out.resize(query.count);
+        out.resize(size_t{query.count} * (query.pointsEach > 1 ? query.pointsEach : 1));
         return suppleFindPoints(context_, handle_, &query, out.data());
     }
     /// Sets the time by which its instances play (SUPPLE_POSES_PLAYBACK).

@@ -70,17 +70,6 @@ typedef struct SuppleCpuGridInfo {
     uint32_t indexCount;  /**< of its triangles: three each */
 } SuppleCpuGridInfo;
 
-/** What the surface is at a point. The derivatives are those by a and b of the point: du by a, dv by b, then the second
- * ones. du x dv points outwards. Where a scheme cuts a face, they jump inside it (docs/cpu.md). */
-typedef struct SuppleSurfaceJet {
-    float position[3]; /**< x, y, z in the space of the cage */
-    float du[3];       /**< by a */
-    float dv[3];       /**< by b */
-    float duu[3];      /**< twice by a */
-    float duv[3];      /**< by a and by b */
-    float dvv[3];      /**< twice by b */
-} SuppleSurfaceJet;
-
 /** Makes the surfaces of a group. What follows from the character alone is computed here, so do it while loading.
  * Errors: what suppleCreateGroup refuses of a description or a character; a scheme without an evaluator; memory. `*out`
  * is null then. */

@@ -36,6 +36,17 @@ typedef struct SuppleSurfacePoint {
     float b; /**< see a */
 } SuppleSurfacePoint;
 
+/** What the surface is at a point. The derivatives are those by a and b of the point: du by a, dv by b, then the second
+ * ones. du x dv points outwards. Where a scheme cuts a face, they jump inside it (docs/cpu.md). */
+typedef struct SuppleSurfaceJet {
+    float position[3]; /**< x, y, z in the space of the cage */
+    float du[3];       /**< by a */
+    float dv[3];       /**< by b */
+    float duu[3];      /**< twice by a */
+    float duv[3];      /**< by a and by b */
+    float dvv[3];      /**< twice by b */
+} SuppleSurfaceJet;
+
 /** What the device has of a point. The frame is three unit vectors at right angles: the tangent t, the bitangent b and
  * the normal n, which points outwards. It turns with the surface as its nearest rotation: shear in the surface turns it
  * by half of the shear, and it does not depend on the two numbers of the face. It is never zero. Where a pose mirrors
@@ -110,12 +121,15 @@ typedef enum SupplePointQueryKind {
     /** The nearest point to each place: x, y, z in the coordinates of the cage. Of faces that meet there (distances
      * that differ by less than a millionth of the extent), the lowest. */
     SUPPLE_FIND_NEAREST = 0,
-    /** The point with these texture coordinates: u, v. Of several, that of the lowest face. Where no face covers them,
-     * its face is SUPPLE_NO_FACE. Faces have straight texture coordinates here: quads bilinear ones,
-     * also where Loop or polygons cut them into triangles, which draw others. */
+    /** The point with these texture coordinates: u, v. Of several, that of the lowest face, or as many as pointsEach
+     * asks for. Where no face covers them, its face is SUPPLE_NO_FACE. Faces have straight texture coordinates here:
+     * quads bilinear ones, also where Loop or polygons cut them into triangles, which draw others. */
     SUPPLE_FIND_UV = 1,
     /** Points spread evenly by area: each of as many equal parts of the area has one, and neighbours may be close. */
     SUPPLE_FIND_SCATTER = 2,
+    /** What each ray hits first, from either side: origin and direction, x, y, z each, in the coordinates of the cage.
+     * A direction need not have a length of 1. If a ray hits nothing, its face is SUPPLE_NO_FACE. */
+    SUPPLE_FIND_RAY = 3,
     SUPPLE_FIND_MAX_ENUM = 0x7FFFFFFF
 } SupplePointQueryKind;
 
@@ -123,26 +137,36 @@ typedef enum SupplePointQueryKind {
 typedef struct SupplePointQuery {
     uint32_t structSize;
     SupplePointQueryKind kind; /**< by what */
-    uint32_t count;            /**< of points to find */
+    uint32_t count;            /**< of places, texture coordinates or rays; SCATTER: of points to find */
     uint32_t uvSet;            /**< UV: 0 or 1, as in the file. Else 0 */
     uint32_t seed;             /**< SCATTER: another one gives other points. Else 0 */
     uint32_t cageVertexCount;  /**< of cage; 0 without one */
-    const float* values;       /**< NEAREST: 3 for each point; UV: 2. SCATTER: null */
-    /** Optional, NEAREST and SCATTER: x, y, z of the character's cage vertices, deformed. Null: the bind pose. UV takes
-     * none. */
+    const float* values;       /**< NEAREST: 3 for each point; UV: 2; RAY: 6. SCATTER: null */
+    /** Optional, NEAREST, SCATTER and RAY: x, y, z of the character's cage vertices, deformed. Null: the bind pose. UV
+     * takes none. */
     const float* cage;
+    /** UV: how many points are listed for each coordinate. They are those of the lowest faces that cover it, one for
+     * each face, in rising order; the rest have SUPPLE_NO_FACE. 0 means 1. Else 0 */
+    uint32_t pointsEach;
+    uint32_t reserved; /**< 0 */
+    /** Optional: filled with what the surface is at each point of out, in the cage that is searched. Zeros where the
+     * face is SUPPLE_NO_FACE. A ray o + t d has hit at t = dot(position - o, d) / dot(d, d). */
+    SuppleSurfaceJet* jets;
 } SupplePointQuery;
 
 /** Finds points on the surfaces of a group, on the CPU: for a set, or to be kept in a file. No device is waited for.
  *
- * out: query->count points; null if there are none. Like a first set, the first call for a group makes its surfaces.
- * NEAREST begins from samples: 16 a triangle or quad; of a larger face 16 a side up to 8 sides, 4 up to 32, one beyond.
- * The first call in the bind pose makes and keeps them (50 bytes each); with a cage each call makes its own. Then a
- * point takes about 0.1 ms. UV and SCATTER go over all faces once in each call.
- * The result is the same on every machine up to rounding.
+ * out: query->count points, with UV pointsEach times as many; null if there are none. Like a first set, the first call
+ * for a group makes its surfaces. NEAREST begins from samples: 16 a triangle or quad; of a larger face 16 a side up to
+ * 8 sides, 4 up to 32, one beyond. RAY begins from triangles between as many samples, at least 4 a side. The first
+ * call in the bind pose makes and keeps them (50 bytes a sample, for RAY 400 bytes a quad); with a cage each call makes
+ * its own. Then a point takes about 0.1 ms. UV and SCATTER go over all faces once in each call. The result is the same
+ * on every machine up to rounding. If a ray grazes a face and meets it twice, the farther of the two points may be
+ * found: less than 4 in 1000 rays are wrong where a third of them graze.
  *
- * Errors: a stale handle; numbers that are not finite or beyond SUPPLE_MAX_COORDINATE; a cage of another number of
- * vertices; a UV set that the character lacks; what suppleCreatePointSet refuses of a group. */
+ * Errors: a stale handle; numbers that are not finite or beyond SUPPLE_MAX_COORDINATE; a direction without a length; a
+ * cage of another number of vertices; a UV set that the character lacks; more points than 32 bits number; what
+ * suppleCreatePointSet refuses of a group. */
 SUPPLE_API SuppleResult suppleFindPoints(SuppleContext context, SuppleGroup group, const SupplePointQuery* query,
                                          SuppleSurfacePoint* out);
 
