@@ -1,5 +1,5 @@
-// The device. Qt would create one without the features that the sample needs, so the application creates it, and Qt's scene
-// graph and Supple both borrow it. Nobody but Qt submits.
+// The device. Qt would create one without the features that the sample needs, so the application creates it, and Qt's
+// scene graph and Supple both borrow it. Nobody but Qt submits.
 #pragma once
 
 #include "vk.h"
