@@ -42,13 +42,14 @@ BasicScope basic(SyncScope scope) {
 }
 
 void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScope before, SyncScope after) {
+    constexpr VkPipelineStageFlags kBegin = VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT,
+                                   kEnd = VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT;
     const BasicScope from = basic(before), to = basic(after);
     VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
     barrier.srcAccessMask = from.access;
     barrier.dstAccessMask = to.access;
-    device.vk.CmdPipelineBarrier(commandBuffer, from.stages != 0 ? from.stages : VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT,
-                                 to.stages != 0 ? to.stages : VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, 1, &barrier, 0,
-                                 nullptr, 0, nullptr);
+    device.vk.CmdPipelineBarrier(commandBuffer, from.stages != 0 ? from.stages : kBegin,
+                                 to.stages != 0 ? to.stages : kEnd, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 void releaseBuffers(const Device& device, VkCommandBuffer commandBuffer,
