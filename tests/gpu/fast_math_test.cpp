@@ -37,6 +37,7 @@ std::vector<uint32_t> codeOf(VkDriverId driver, VkBool32 keepsSignedZeros) {
     test::FakeVulkan vulkan;
     vulkan.driver = driver;
     vulkan.keepsSignedZeros = keepsSignedZeros;
+    vulkan.device.fastMath = hasFastMath(vulkan.device.vk, vulkan.device.physicalDevice);
     const Result<ComputeLayout> layout = ComputeLayout::create(vulkan.device, {}, 16, "kernel");
     EXPECT_TRUE(layout.ok());
     const std::vector<uint32_t> code = joined({kHeader, kEntryPoint});

@@ -239,10 +239,9 @@ Result<double> SceneStage::recordBehindWork(size_t bytes) {
     info.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    if (vkAllocateCommandBuffers(device_.handle(), &info, &commands) != VK_SUCCESS ||
-        vkBeginCommandBuffer(commands, &begin) != VK_SUCCESS) {
-        return Error{ErrorCode::deviceMemory, "no command buffer"};
-    }
+    VkResult made = vkAllocateCommandBuffers(device_.handle(), &info, &commands);
+    made = made == VK_SUCCESS ? vkBeginCommandBuffer(commands, &begin) : made;
+    status = status && made != VK_SUCCESS ? Status(host::vulkanError(made, "a command buffer")) : status;
     constexpr SuppleSyncScope kUse{VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
     const double before = processSeconds();
     status = status ? check(context_.record(commands, recorded_, kUse, kUse, 0), "suppleRecord") : status;
