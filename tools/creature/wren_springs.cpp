@@ -10,7 +10,7 @@ void addSprings(const Skeleton& skeleton, cage::Character& character) {
     const Vec3 right{-1, 1, 1};
     const uint32_t back = springs.addColliders({
         {"spine", {0, 1.06, -0.010}, {0, 0.97, -0.006}, 0.095},
-        {"hips", {-0.083, 0.945, -0.108}, {-0.086, 0.905, -0.114}, 0.046}, // the pouch
+        {"hips", {-0.083, 0.945, -0.108}, {-0.086, 0.905, -0.114}, 0.052}, // the pouch
         {"skirtBack.L", {0.045, 0.90, -0.030}, {0.062, 0.72, -0.066}, 0.092},
         {"skirtBack.R", {-0.045, 0.90, -0.030}, {-0.062, 0.72, -0.066}, 0.092},
         {"upperArm.R", kShoulder * right, kElbow * right, 0.066},
