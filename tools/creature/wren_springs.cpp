@@ -32,10 +32,12 @@ void addSprings(const Skeleton& skeleton, cage::Character& character) {
         springs.add(name, joints, colliders, first, softer);
     };
     // Stiff at the root and loose at the tip, so that a swing runs down like a wave. Gravity is the earth's.
-    add("ponytail", {skull, back}, {.hitRadius = 0.03f, .stiffness = 0.75f, .gravityPower = 0.16f, .drag = 0.2f}, 0.55f);
+    add("ponytail", {skull, back}, {.hitRadius = 0.03f, .stiffness = 0.75f, .gravityPower = 0.16f, .drag = 0.2f},
+        0.55f);
     add("scarf", {back}, {.hitRadius = 0.018f, .stiffness = 0.16f, .gravityPower = 0.16f, .drag = 0.14f}, 0.6f);
     for (const Pouch& pouch : kPouches) {
-        add(pouch.name, {legAndHand}, {.hitRadius = 0.03f, .stiffness = 1.2f, .gravityPower = 0.16f, .drag = 0.18f}, 1.0f);
+        add(pouch.name, {legAndHand}, {.hitRadius = 0.03f, .stiffness = 1.2f, .gravityPower = 0.16f, .drag = 0.18f},
+            1.0f);
     }
 }
 
