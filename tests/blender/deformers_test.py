@@ -292,7 +292,7 @@ class Vrm(unittest.TestCase):
             group.name = "group"
             group.colliders.add().collider_name = "ball"
             spring = spring_bone.springs.add()
-            spring.vrm_name = "ear"
+            spring.vrm_name, spring.center.bone_name = "ear", "body"
             spring.collider_groups.add().collider_group_name = "group"
             for bone in ("antenna1", "antenna2"):
                 joint = spring.joints.add()
@@ -302,7 +302,9 @@ class Vrm(unittest.TestCase):
             del bpy.types.Armature.vrm_addon_extension
             for kind in reversed(made):
                 bpy.utils.unregister_class(kind)
-        bones = glb.Glb(path_of("vrm.glb")).json["extensions"]["VRMC_springBone"]
+        root = glb.Glb(path_of("vrm.glb")).json
+        bones = root["extensions"]["VRMC_springBone"]
+        self.assertEqual(root["nodes"][bones["springs"][0]["center"]]["name"], "body")
         self.assertEqual(bones["springs"][0]["name"], "ear")
         self.assertEqual(len(bones["springs"][0]["joints"]), 2)
         self.assertEqual(bones["springs"][0]["joints"][0]["gravityDir"], [0, -1, 0])
@@ -325,7 +327,8 @@ def vrm_stub():
     named_collider = group("VrmNamedCollider", collider_name=props.StringProperty())
     collider_group = group("VrmColliderGroup", colliders=props.CollectionProperty(type=named_collider))
     named_group = group("VrmNamedGroup", collider_group_name=props.StringProperty())
-    spring = group("VrmSpring", vrm_name=props.StringProperty(), joints=props.CollectionProperty(type=joint),
+    spring = group("VrmSpring", vrm_name=props.StringProperty(), center=props.PointerProperty(type=bone),
+                   joints=props.CollectionProperty(type=joint),
                    collider_groups=props.CollectionProperty(type=named_group))
     spring_bone = group("VrmSpringBone", colliders=props.CollectionProperty(type=collider),
                         collider_groups=props.CollectionProperty(type=collider_group),

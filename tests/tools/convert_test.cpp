@@ -145,7 +145,7 @@ TEST_F(Convert, KeepsWhatACageWasMadeFor) {
 }
 
 TEST_F(Convert, KeepsSprings) {
-    const auto convert = [&](const char* source, const std::string& extensions) {
+    const auto convert = [&](const std::string& source, const std::string& extensions) {
         const std::vector<std::byte> glb = supple::test::withExtensions(source, extensions);
         writeText(file("springs.glb"), {reinterpret_cast<const char*>(glb.data()), glb.size()});
         EXPECT_EQ(run("convert springs.glb -o again.glb").exitCode, 0);

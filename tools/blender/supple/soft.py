@@ -12,11 +12,13 @@ MUSH_MASK = "_SUPPLE_MUSH"
 class SuppleJiggle(bpy.types.PropertyGroup):
     vertex_group: bpy.props.StringProperty(name="Vertex Group", description="How far each vertex jiggles: 1 wholly")
     frequency: bpy.props.FloatProperty(
-        name="Frequency", description="Swings per second: 2 to 4 for a belly, 6 to 10 for cheeks", default=4.0, min=0.05, max=30.0)
+        name="Frequency", description="Swings per second: 2 to 4 for a belly, 6 to 10 for cheeks",
+        default=4.0, min=0.05, max=30.0)
     damping: bpy.props.FloatProperty(
         name="Damping", description="0 never stops, 0.1 to 0.3 rings down, 1 creeps back", default=0.2, min=0.0, max=10.0)
     limit: bpy.props.FloatProperty(
-        name="Limit", description="The farthest that a vertex gets from its place", default=0.05, min=1e-6, max=1e9, unit="LENGTH")
+        name="Limit", description="The farthest that a vertex gets from its place",
+        default=0.05, min=1e-6, max=1e9, unit="LENGTH")
 
     def members(self):
         return {"frequency": self.frequency, "damping": self.damping, "limit": self.limit}
@@ -24,16 +26,19 @@ class SuppleJiggle(bpy.types.PropertyGroup):
 
 class SuppleCloth(bpy.types.PropertyGroup):
     vertex_group: bpy.props.StringProperty(name="Vertex Group", description="What moves: 1 is light, less is heavier")
-    pin_group: bpy.props.StringProperty(name="Pin Group", description="What stays on the bones: 1 is pinned, as in Blender's cloth")
+    pin_group: bpy.props.StringProperty(
+        name="Pin Group", description="What stays on the bones: 1 is pinned, as in Blender's cloth")
     stretch: bpy.props.FloatProperty(
-        name="Stretch", description="How much edges give: 0 is rigid, 1e-7 cotton", default=1e-7, min=0.0, max=1000.0, precision=9)
+        name="Stretch", description="How much edges give: 0 is rigid, 1e-7 cotton",
+        default=1e-7, min=0.0, max=1000.0, precision=9)
     shear: bpy.props.FloatProperty(
         name="Shear", description="How much diagonals give", default=1e-7, min=0.0, max=1000.0, precision=9)
     bend: bpy.props.FloatProperty(
         name="Bend", description="1e-3 bends easily, 1e-6 is stiff", default=1e-3, min=0.0, max=1000.0, precision=7)
     volume: bpy.props.BoolProperty(name="Keep Volume", description="For balls, cushions and bellies", default=False)
     tether: bpy.props.FloatProperty(
-        name="Tether", description="The farthest from what is pinned, by the way over the mesh; 0: any", default=1.02, min=0.0, max=10.0)
+        name="Tether", description="The farthest from what is pinned, by the way over the mesh; 0: any",
+        default=1.02, min=0.0, max=10.0)
     drag: bpy.props.FloatProperty(
         name="Drag", description="What part of its speed beside the character is lost in 1/60 s", default=0.1, min=0.0, max=1.0)
     air: bpy.props.FloatProperty(

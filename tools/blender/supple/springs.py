@@ -16,7 +16,8 @@ class SuppleBoneSettings(bpy.types.PropertyGroup):
     drag: bpy.props.FloatProperty(
         name="Drag", description="What part of its speed it loses: 1 does not swing on", default=0.4, min=0.0, max=1.0)
     gravity: bpy.props.FloatProperty(
-        name="Gravity", description="How strongly it is pulled down; 0.16 is the earth's, if a unit is a metre", default=0.0, soft_min=0.0, soft_max=2.0)
+        name="Gravity", description="How strongly it is pulled down; 0.16 is the earth's, if a unit is a metre",
+        default=0.0, soft_min=0.0, soft_max=2.0)
     hit_radius: bpy.props.FloatProperty(
         name="Hit Radius", description="How far its tail stays from colliders", default=0.02, min=0.0, unit="LENGTH")
     colliders: bpy.props.PointerProperty(
@@ -63,12 +64,13 @@ def _shape_of(blender_object):
 class _Chain:
     """Bones that swing one below the other."""
 
-    def __init__(self, name, bones, tail, numbers, colliders):
+    def __init__(self, name, bones, tail, numbers, colliders, center=""):
         self.name = name
         self.bones = bones  # names
         self.tail = tail  # the bone or the node that is its end
         self.numbers = numbers  # one of each bone
-        self.colliders = colliders  # a collection, or None
+        self.colliders = colliders  # a collection, a list of Empties, or None
+        self.center = center  # the bone in whose space it moves; empty: the world
 
 
 def _numbers_of(settings):
@@ -97,11 +99,11 @@ def _next(bone):
 
 
 def vrm_chains_of(armature):
-    """Those of the VRM add-on, if it is enabled and has some: (chains, Empties by the name of a collider group)."""
+    """Those of the VRM add-on, if it is enabled and has some."""
     extension = getattr(armature.data, "vrm_addon_extension", None)
     spring_bone = getattr(extension, "spring_bone1", None)
     if spring_bone is None:
-        return [], {}
+        return []
     empties = {c.name: c.bpy_object for c in spring_bone.colliders if c.bpy_object is not None}
     groups = {g.name: [empties[c.collider_name] for c in g.colliders if c.collider_name in empties]
               for g in spring_bone.collider_groups}
@@ -115,8 +117,8 @@ def vrm_chains_of(armature):
                    for j in joints]
         names = [j.node.bone_name for j in joints]
         own = [e for g in spring.collider_groups for e in groups.get(g.collider_group_name, ())]
-        chains.append(_Chain(spring.vrm_name, names[:-1], names[-1], numbers, own))
-    return chains, groups
+        chains.append(_Chain(spring.vrm_name, names[:-1], names[-1], numbers, own, spring.center.bone_name))
+    return chains
 
 
 class Springs:
@@ -124,9 +126,9 @@ class Springs:
 
     def __init__(self, report):
         self._report = report
-        self._joints = {}  # (armature, bone): node
-        self._objects = {}  # object: node
-        self._chains = {}  # armature: chains
+        self._joints = {}  # node by (armature, bone)
+        self._objects = {}  # node by object
+        self._chains = {}  # by armature
         self._colliders = []  # Empties, in the order of the file
 
     def add_joint(self, node, pose_bone):
@@ -158,7 +160,7 @@ class Springs:
 
     def _chains_of(self, armature):
         if armature.name not in self._chains:
-            own = vrm_chains_of(armature)[0]
+            own = vrm_chains_of(armature)
             taken = {bone for chain in own for bone in chain.bones + [chain.tail]}
             own += [c for c in chains_of(armature) if taken.isdisjoint(c.bones)]
             self._chains[armature.name] = own
@@ -177,6 +179,9 @@ class Springs:
                     continue
                 numbers = chain.numbers + [{}] * (len(joints) - len(chain.numbers))
                 spring = {"name": chain.name, "joints": [{"node": j, **n} for j, n in zip(joints, numbers)]}
+                center = self.node_number(gltf, armature, chain.center)
+                if center is not None:
+                    spring["center"] = center
                 met = self.collider_numbers(chain.colliders)
                 if met:
                     spring["colliderGroups"] = [self._group(groups, met)]
