@@ -4,7 +4,8 @@
 // some clips have channels of keys, and some are packed.
 //
 // Loops of much code are tested at the bottom, and what they do stands in an `if`: lavapipe would go through it once more than
-// there are turns, with no lane, and goes on computing lanes that have left while others go round.
+// there are turns, with no lane, and goes on computing lanes that have left while others go round. The `if` compares anew: where it
+// asked the very bool by which the loop is left, Mesa would take it for true, and leave it out.
 #include "shaders/pose/knots.h"
 #include "shaders/pose/nodes.h"
 #include "shaders/pose/packed.h"
@@ -16,27 +17,26 @@ struct KeySpan {
     float seconds; // 0: the key's own value
 };
 KeySpan keysAt(uvec4 channel, vec2 time) {
-    // From which key on the time is before the next one; a key's own time gives its value as it is. Most clips have keys at even
-    // times, so that the first guess is right and nothing is left to search: it is among `low` to `high`.
-    uint keys = channel.x >> 2u, low = 0u, high = max(keys, 1u) - 1u;
+    // The key from which on the time is before the next one; a key's own time gives its value as it is. Most clips have keys at
+    // even times, so that the first guess is right; else the key is among those from `low` on that are before `high`.
+    uint low = 0u, high = max(channel.x >> 2u, 1u) - 1u;
     uint key = uint(clamp(time.x * uintBitsToFloat(channel.y), 0.0f, float(max(high, 1u) - 1u)));
     float begin = 0.0f, end = 0.0f;
-    bool before = false, behind = false, searches = true;
+    bool between = false;
     do {
-        if (searches) {
+        if (low < high) {
             begin = packedFloat(channel.z, key);
             end = packedFloat(channel.z, key + 1u);
-            before = earlier(time, vec2(begin, 0.0f));
-            behind = !earlier(time, vec2(end, 0.0f));
+            bool before = earlier(time, vec2(begin, 0.0f)), behind = !earlier(time, vec2(end, 0.0f));
+            between = !before && !behind;
             if (before) high = key;
             if (behind) low = key + 1u;
-            searches = (before || behind) && low < high;
-            if (searches) key = (low + high) / 2u;
+            if (between) high = low;
+            if (!between) key = (low + high) / 2u;
         }
-    } while (searches);
-    bool between = keys > 1u && !before && !behind;
+    } while (low < high);
     KeySpan span;
-    span.key = between || before ? key : min(low, max(keys, 1u) - 1u);
+    span.key = between ? key : low;
     span.t = 0.0f;
     span.seconds = 0.0f;
     if (between && (channel.x & 3u) != kStepKeys) {
