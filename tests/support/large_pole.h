@@ -79,13 +79,14 @@ struct PoleRings {
         if (made.kernel != surface::KindOfKernel{surface::Kernel::subdivisionIsolate, shared::kWholeWords}) {
             continue;
         }
-        rows += made.section.count;
-        for (size_t r = 0; r < made.section.count; ++r) {
-            const uint32_t* record = &tables.words[size_t{4} * made.section.table + 3 * r];
-            const uint32_t* list = &tables.words[record[0]]; // of pairs, then a vertex more than they have
-            std::vector<uint32_t> row(list, list + 2 * size_t{*list} + 2);
-            row.push_back(record[2]); // weights
-            distinct.insert(std::move(row));
+        for (size_t b = 0; b < made.section.count / shared::kBlockLanes; ++b) {
+            const uint32_t* block = &tables.words[4 * (made.section.table + b)];
+            const size_t first = block[0], each = block[1], count = block[2];
+            rows += count;
+            for (size_t r = 0; r < count; ++r) {
+                const uint32_t* row = &tables.words[first + each * r]; // its number, then weights and vertices
+                distinct.insert(std::vector<uint32_t>(row + 1, row + each));
+            }
         }
     }
     EXPECT_GT(rows, 0u);
