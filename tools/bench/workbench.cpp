@@ -268,7 +268,8 @@ const std::vector<SuppleTiming>& Workbench::timings() const {
 }
 
 uint64_t Workbench::deviceMemoryOf(SuppleGroup group) const {
-    return inside_->group(group).memoryUse().deviceLocal;
+    const gpu::MemoryUse use = inside_->group(group).memoryUse();
+    return use.total() - use.hostVisible();
 }
 
 uint32_t Workbench::verticesOf(SuppleView view) const {
