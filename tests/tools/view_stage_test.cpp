@@ -250,10 +250,9 @@ TEST_F(RemadeStage, WhatIsSoftMovesAndIsTuned) {
         return cage.ok() ? *cage : std::vector<glm::vec3>();
     };
     const std::vector<glm::vec3> swung = walked();
-    std::vector<ViewStage::ShownStroke> strokes = stage.shownStrokes(kAspect);
+    std::vector<PlacedStroke> strokes = stage.shownStrokes(kAspect);
     const auto dots = [&] {
-        return std::count_if(strokes.begin(), strokes.end(),
-                             [](const auto& stroke) { return stroke.from == stroke.to; });
+        return std::count_if(strokes.begin(), strokes.end(), [](const PlacedStroke& stroke) { return stroke.isDot(); });
     };
     EXPECT_EQ(dots(), 2 * 3 + 8) << "two ears and a tail, with their ends";
     stage.settings.soft = {.painted = true};

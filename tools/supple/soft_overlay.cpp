@@ -231,19 +231,29 @@ std::vector<SoftKey> softKeys(const SoftFacts& facts, const SoftShown& shown) {
     return keys;
 }
 
+std::vector<PlacedStroke> placeStrokes(const std::vector<Stroke>& strokes, const glm::mat4& view) {
+    constexpr float kFar = 100.0f; // pictures; absurd poses have absurd joints
+    std::vector<PlacedStroke> placed;
+    for (const Stroke& stroke : strokes) {
+        const glm::vec4 from = view * glm::vec4(stroke.from, 1.0f), to = view * glm::vec4(stroke.to, 1.0f);
+        const auto place = [](const glm::vec4& at) {
+            return glm::vec2(0.5f + 0.5f * at.x / at.w, 0.5f - 0.5f * at.y / at.w);
+        };
+        const auto isSeen = [&](const glm::vec4& at) {
+            return at.w > 0.0f && std::abs(place(at).x) < kFar && std::abs(place(at).y) < kFar;
+        };
+        if (isSeen(from) && isSeen(to))
+            placed.push_back({place(from), place(to), stroke.color});
+    }
+    return placed;
+}
+
 void drawStrokes(host::Picture& picture, const std::vector<Stroke>& strokes, const std::vector<SoftKey>& keys,
                  const glm::mat4& view) {
     const glm::vec2 size(static_cast<float>(picture.width), static_cast<float>(picture.height));
     const float scale = std::max(1.0f, size.y / 600.0f);
-    for (const Stroke& stroke : strokes) {
-        const glm::vec4 from = view * glm::vec4(stroke.from, 1.0f), to = view * glm::vec4(stroke.to, 1.0f);
-        if (!(from.w > 0.0f) || !(to.w > 0.0f))
-            continue;
-        const auto place = [&](const glm::vec4& at) {
-            return size * glm::vec2(0.5f + 0.5f * at.x / at.w, 0.5f - 0.5f * at.y / at.w);
-        };
-        drawStroke(picture, place(from), place(to), (stroke.from == stroke.to ? 4.5f : 1.5f) * scale, stroke.color);
-    }
+    for (const PlacedStroke& stroke : placeStrokes(strokes, view))
+        drawStroke(picture, size * stroke.from, size * stroke.to, (stroke.isDot() ? 4.5f : 1.5f) * scale, stroke.color);
     const uint32_t letters = picture.height < 400 ? 1 : 2, line = 12 * letters;
     if (picture.width < 200)
         return;

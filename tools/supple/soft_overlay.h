@@ -38,6 +38,16 @@ struct SoftFacts {
 [[nodiscard]] Result<std::vector<Stroke>> softStrokes(const SoftFacts& facts, const host::FigureGroup& group,
                                                       const SoftShown& shown);
 
+/// Where a stroke lies in a picture, in fractions of it from its upper left.
+struct PlacedStroke {
+    glm::vec2 from{0.0f}, to{0.0f};
+    std::array<uint8_t, 3> color{};
+
+    [[nodiscard]] bool isDot() const { return from == to; }
+};
+/// Those before the eye and not far aside. `view`: from the world to clip space.
+[[nodiscard]] std::vector<PlacedStroke> placeStrokes(const std::vector<Stroke>& strokes, const glm::mat4& view);
+
 /// What the colors of strokes stand for; for what is shown, and only of what there is.
 struct SoftKey {
     std::array<uint8_t, 3> color{};

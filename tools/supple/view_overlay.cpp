@@ -40,10 +40,10 @@ void drawSoft(const ViewStage& stage, float aspect) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const auto packed = [](const std::array<uint8_t, 3>& color) { return IM_COL32(color[0], color[1], color[2], 230); };
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    for (const ViewStage::ShownStroke& stroke : stage.shownStrokes(aspect)) {
+    for (const PlacedStroke& stroke : stage.shownStrokes(aspect)) {
         const ImVec2 from(stroke.from.x * size.x, stroke.from.y * size.y),
             to(stroke.to.x * size.x, stroke.to.y * size.y);
-        if (stroke.from == stroke.to)
+        if (stroke.isDot())
             draw.AddCircleFilled(from, 3.0f, packed(stroke.color));
         else
             draw.AddLine(from, to, packed(stroke.color), 1.5f);

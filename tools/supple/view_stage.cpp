@@ -486,24 +486,19 @@ std::vector<ViewStage::ShownJoint> ViewStage::shownJoints(float aspect) const {
     return joints;
 }
 
-std::vector<ViewStage::ShownStroke> ViewStage::shownStrokes(float aspect) const {
-    std::vector<ShownStroke> shown;
+std::vector<PlacedStroke> ViewStage::shownStrokes(float aspect) const {
     if (recordedVersion_ != version_)
-        return shown;
+        return {};
     const Result<std::vector<Stroke>> strokes = softStrokes(softFacts_, *group_, settings.soft);
     if (!strokes)
-        return shown;
+        return {};
     const glm::mat4 view = camera_.projection(aspect, extent_.bounds.radius()) * camera_.view();
-    const glm::vec2 shift(surfaceShift(), 0.0f);
-    const auto place = [&](const glm::vec4& at) {
-        return shift + glm::vec2(0.5f + 0.5f * at.x / at.w, 0.5f - 0.5f * at.y / at.w);
-    };
-    for (const Stroke& stroke : *strokes) {
-        const glm::vec4 from = view * glm::vec4(stroke.from, 1.0f), to = view * glm::vec4(stroke.to, 1.0f);
-        if (from.w > 0.0f && to.w > 0.0f)
-            shown.push_back({place(from), place(to), stroke.color});
+    std::vector<PlacedStroke> placed = placeStrokes(*strokes, view);
+    for (PlacedStroke& stroke : placed) {
+        stroke.from.x += surfaceShift();
+        stroke.to.x += surfaceShift();
     }
-    return shown;
+    return placed;
 }
 
 host::Scene ViewStage::scene(VkExtent2D extent) const {

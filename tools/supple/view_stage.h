@@ -143,11 +143,7 @@ public:
     };
     [[nodiscard]] std::vector<ShownJoint> shownJoints(float aspect) const;
     /// Lines and dots of settings.soft over the picture, in fractions of it, as the frame before had the figure.
-    struct ShownStroke {
-        glm::vec2 from{0.0f}, to{0.0f};
-        std::array<uint8_t, 3> color{};
-    };
-    [[nodiscard]] std::vector<ShownStroke> shownStrokes(float aspect) const;
+    [[nodiscard]] std::vector<PlacedStroke> shownStrokes(float aspect) const;
 
     /// Supple's passes of a frame. Levels are chosen for a picture of this height.
     [[nodiscard]] Status evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t completedFrame, uint32_t height);
