@@ -64,6 +64,11 @@ TEST(ViewPickTest, TellsWhatIsSeenThere) {
             ASSERT_TRUE(nothing.ok());
             EXPECT_FALSE(nothing->has_value());
         }
+        const glm::vec2 middle = placeIn(stage, stage.group().readSurface()->front());
+        stage.settings.shownParts[0] = false; // there is no other
+        const Result<std::optional<ViewPick>> hidden = pickAt(stage, middle, kPickAspect);
+        ASSERT_TRUE(hidden.ok());
+        EXPECT_FALSE(hidden->has_value());
     }
     EXPECT_EQ((*device)->validation()->messageCount(), 0u);
 }

@@ -17,6 +17,7 @@ namespace {
 /// A mouse that moves by more between press and release drags.
 constexpr float kClickPixels = 3.0f;
 constexpr size_t kMostJoints = 6; ///< that the window lists
+constexpr int kMostHidden = 32;   ///< hits on hidden parts that a ray goes on behind
 
 struct CameraRay {
     glm::vec3 origin{0.0f}, direction{0.0f};
@@ -104,15 +105,9 @@ void drawMarker(const ViewStage& stage, float aspect, const ViewPick& pick) {
     draw.AddCircle(place, 6.0f, IM_COL32(255, 255, 255, 255), 0, 1.5f);
 }
 
-} // namespace
-
-Result<std::optional<ViewPick>> pickAt(const ViewStage& stage, const glm::vec2& place, float aspect) {
+/// What a ray meets first of the deformed cage's surface.
+Result<std::optional<ViewPick>> cast(const ViewStage& stage, const std::vector<glm::vec3>& cage, const CameraRay& ray) {
     const host::Figure& figure = stage.figure();
-    const Result<std::vector<glm::vec3>> cage = stage.group().readCage();
-    if (!cage) {
-        return cage.error();
-    }
-    const CameraRay ray = rayThrough(stage, place, aspect);
     ViewPick pick;
     SuppleSurfaceJet jet{};
     SupplePointQuery query{};
@@ -120,8 +115,8 @@ Result<std::optional<ViewPick>> pickAt(const ViewStage& stage, const glm::vec2& 
     query.kind = SUPPLE_FIND_RAY;
     query.count = 1;
     query.values = &ray.origin.x;
-    query.cage = &cage->front().x;
-    query.cageVertexCount = static_cast<uint32_t>(cage->size());
+    query.cage = &cage.front().x;
+    query.cageVertexCount = static_cast<uint32_t>(cage.size());
     query.jets = &jet;
     host::Context& context = figure.context();
     const Status found = context.check(suppleFindPoints(context.handle(), stage.group().handle(), &query, &pick.point),
@@ -139,6 +134,25 @@ Result<std::optional<ViewPick>> pickAt(const ViewStage& stage, const glm::vec2& 
     pick.clip = stage.settings.clip;
     pick.time = stage.settings.time;
     return std::optional(std::move(pick));
+}
+
+} // namespace
+
+Result<std::optional<ViewPick>> pickAt(const ViewStage& stage, const glm::vec2& place, float aspect) {
+    const Result<std::vector<glm::vec3>> cage = stage.group().readCage();
+    if (!cage) {
+        return cage.error();
+    }
+    CameraRay ray = rayThrough(stage, place, aspect);
+    const glm::vec3 eye = ray.origin;
+    for (int hidden = 0; hidden < kMostHidden; ++hidden) {
+        Result<std::optional<ViewPick>> pick = cast(stage, *cage, ray);
+        if (!pick || !pick->has_value() || stage.settings.shownParts[(*pick)->part]) {
+            return pick;
+        }
+        ray.origin = (*pick)->position + 1e-4f * ((*pick)->position - eye);
+    }
+    return std::optional<ViewPick>();
 }
 
 std::optional<glm::vec2> clickedPlace() {

@@ -24,7 +24,8 @@ struct ViewPick {
     double time = 0.0;
 };
 
-/// `place`: in fractions of the picture from its upper left. No frame may be pending.
+/// What is seen of the shown parts at a place, in fractions of the picture from its upper left. No frame may be
+/// pending.
 [[nodiscard]] Result<std::optional<ViewPick>> pickAt(const ViewStage& stage, const glm::vec2& place, float aspect);
 
 /// The place of a click that does not turn the camera and that the panel does not want.
