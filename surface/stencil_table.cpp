@@ -79,7 +79,7 @@ std::vector<uint32_t> rowsByLength(const Stencils& stencils) {
     return order;
 }
 
-/// Rows of one length, in a row.
+/// Rows of one length that follow each other.
 struct Block {
     uint32_t first = 0, rows = 0;
 };
