@@ -65,10 +65,16 @@ TEST(ViewPickTest, TellsWhatIsSeenThere) {
             EXPECT_FALSE(nothing->has_value());
         }
         const glm::vec2 middle = placeIn(stage, stage.group().readSurface()->front());
-        stage.settings.shownParts[0] = false; // there is no other
-        const Result<std::optional<ViewPick>> hidden = pickAt(stage, middle, kPickAspect);
-        ASSERT_TRUE(hidden.ok());
-        EXPECT_FALSE(hidden->has_value());
+        const Result<std::optional<ViewPick>> before = pickAt(stage, middle, kPickAspect);
+        ASSERT_TRUE(before.ok() && before->has_value());
+        stage.settings.shownParts[(*before)->part] = false;
+        const Result<std::optional<ViewPick>> behind = pickAt(stage, middle, kPickAspect);
+        ASSERT_TRUE(behind.ok());
+        EXPECT_TRUE(!behind->has_value() || (*behind)->part != (*before)->part);
+        stage.settings.shownParts.assign(stage.settings.shownParts.size(), false);
+        const Result<std::optional<ViewPick>> nobody = pickAt(stage, middle, kPickAspect);
+        ASSERT_TRUE(nobody.ok());
+        EXPECT_FALSE(nobody->has_value());
     }
     EXPECT_EQ((*device)->validation()->messageCount(), 0u);
 }
