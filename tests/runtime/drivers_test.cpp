@@ -633,7 +633,7 @@ TEST_F(Drivers, AllocateNothingInFrames) {
         float m[16];
         good = good && suppleGetJointTransform(played.handle(), played.instances[0], 1, m) == SUPPLE_OK;
         // What frames do.
-        poses.write(1000 + i, 0.01 * i, setGroup.instances().slots(), bytes.data());
+        poses.write({uint64_t{1000} + i, 0.01 * i, false}, setGroup.instances().slots(), bytes.data());
         playback.setTime(0.01 * i);
         playback.listPoses(1000 + i, played.group().windows(), 2, [](uint32_t) { return true; });
     }

@@ -22,8 +22,8 @@ class HostSoft : public CrowdContexts {};
 constexpr uint32_t kSoftFlag = SUPPLE_GROUP_SOFT;
 constexpr uint32_t kHop = 1; ///< the clip
 
-/// What two thirds of a second of the clip show of two groups of which something is soft, one of which plays, and of one
-/// that is stiff: how far the first two are apart, and by how much they move.
+/// What two thirds of a second of the clip show of two groups of which something is soft, one of which plays, and of
+/// one that is stiff: how far the first two are apart, and by how much they move.
 std::array<double, 2> movedBesidePlayed(CrowdContext& own, SuppleAsset asset, By by, SuppleSkinning skinning,
                                         uint32_t flags, uint32_t clip) {
     const uint32_t modifiers = by == By::clipWithModifiers ? SUPPLE_GROUP_MODIFIERS : 0;
@@ -243,7 +243,7 @@ TEST_F(HostSoft, TakesWindowsOfInstances) {
     for (const SuppleMapping mapping : kMappings) {
         LimitedDevice limited(mapping, [](WrappedVulkan& says) { says.maxStorageBufferRange = 1u << 18; });
         ASSERT_NE(limited.context(), nullptr);
-        constexpr uint32_t kCount = 24;
+        constexpr uint32_t kCount = 40;
         CrowdContext &small = *limited.context(), &large = context(mapping);
         PosedGroup cut(small, posedGroup(small.asset(kCapedFile), kCount, kSoftFlag | SUPPLE_GROUP_WINDOWS), kHop);
         PosedGroup whole(large, posedGroup(large.asset(kCapedFile), kCount, kSoftFlag), kHop);

@@ -29,6 +29,8 @@ public:
         changePoints(frame);
         time_ += 0.03;
         set(suppleSetTime(handle(), played_.group, time_));
+        const float wind[3] = {static_cast<float>(frame % 5), 0.0f, 1.0f};
+        set(suppleSetWind(handle(), played_.group, wind));
         setCamera();
         const Status ran = context_.device().submitAndWait([&](VkCommandBuffer commands) {
             if (frame == 3) {
