@@ -261,7 +261,7 @@ void takeTargets(const Character& character, size_t index, std::span<const uint3
     }
 }
 
-/// Of all that a character has painted, what `weights` name: in the same order, and so they name it.
+/// Takes from `all` what `weights` name, in the same order. Then `weights` name places in `taken`.
 template <class T>
 void takePainted(const std::vector<T>& all, std::vector<PaintedWeight>& weights, std::vector<T>& taken) {
     std::vector<uint32_t> places(all.size(), kNone);

@@ -12,10 +12,10 @@
 
 namespace supple::cage {
 
-/// Appends what is painted on a vertex of `from`, which has vertices of its own: its jiggle, its cloth and its mask.
-/// Lists that `from` lacks stay as they are.
+/// Appends to `into` what is painted on a vertex of `from`: its jiggle, its cloth and its mask. Where a list of `from`
+/// is empty, that of `into` stays as it is.
 void appendPainted(const SkinWeights& from, uint32_t vertex, SkinWeights& into);
-/// The same behind the influences of the vertex. `into` has its first start.
+/// Appends the influences of the vertex, and what is painted on it. `into.starts` has its leading 0 already.
 void appendVertex(const SkinWeights& from, uint32_t vertex, SkinWeights& into);
 
 /// The influences of vertices that are appended one after the other: by joint, normalised, at least one a vertex.

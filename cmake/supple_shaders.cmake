@@ -24,7 +24,7 @@ if(NOT SUPPLE_COMPILED_SHADERS)
     find_program(SUPPLE_SPIRV_OPT NAMES spirv-opt REQUIRED)
 endif()
 
-# The oldest that the kernels run on: workgroup sizes by specialization constants need maintenance4 from SPIR-V 1.6 on.
+# The oldest version that kernels run on. From SPIR-V 1.6 on, workgroup sizes by specialization constants would need maintenance4.
 set(SUPPLE_SPIRV_TARGET vulkan1.1)
 
 # Drivers inline all functions before they look at constants: code that is never taken, and every early return, would cost

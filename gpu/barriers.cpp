@@ -4,8 +4,11 @@ namespace supple::gpu {
 
 namespace {
 
-/// Flags above these 32 bits are those that Vulkan 1.0 lacks.
-constexpr uint64_t kBasicFlags = 0xFFFFFFFFu;
+/// Flags that VkPipelineStageFlagBits and VkAccessFlagBits have as well. Not all that fit into 32 bits are among them:
+/// synchronization2 alone has stages from bit 26 on, such as the copy of acceleration structures.
+constexpr VkPipelineStageFlags2 kBasicStages = 0x03FFFFFFu;
+constexpr VkAccessFlags2 kBasicAccess = 0x0FFFFFFFu;
+static_assert((VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR & ~kBasicStages) == 0);
 
 } // namespace
 
@@ -17,15 +20,15 @@ BasicScope basic(SyncScope scope) {
     constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
     constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 
-    BasicScope result{static_cast<VkPipelineStageFlags>(scope.stages & kBasicFlags),
-                      static_cast<VkAccessFlags>(scope.access & kBasicFlags)};
+    BasicScope result{static_cast<VkPipelineStageFlags>(scope.stages & kBasicStages),
+                      static_cast<VkAccessFlags>(scope.access & kBasicAccess)};
     if ((scope.stages & kTransfers) != 0) {
         result.stages |= VK_PIPELINE_STAGE_TRANSFER_BIT;
     }
     if ((scope.stages & kInputs) != 0) {
         result.stages |= VK_PIPELINE_STAGE_VERTEX_INPUT_BIT;
     }
-    if ((scope.stages & ~(kBasicFlags | kTransfers | kInputs)) != 0) {
+    if ((scope.stages & ~(kBasicStages | kTransfers | kInputs)) != 0) {
         result.stages |= VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
     }
     if ((scope.access & kReads) != 0) {
@@ -34,7 +37,7 @@ BasicScope basic(SyncScope scope) {
     if ((scope.access & kWrites) != 0) {
         result.access |= VK_ACCESS_SHADER_WRITE_BIT;
     }
-    if ((scope.access & ~(kBasicFlags | kReads | kWrites)) != 0) {
+    if ((scope.access & ~(kBasicAccess | kReads | kWrites)) != 0) {
         result.stages |= VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
         result.access |= VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
     }

@@ -23,7 +23,8 @@ struct BasicScope {
 
 /// Makes the writes in `before` visible to `after`; a global barrier, so no buffer is named.
 void memoryBarrier(const Device& device, VkCommandBuffer commandBuffer, SyncScope before, SyncScope after);
-/// Of buffers that leave this queue family: nothing here waits for them. Their access masks are filled in.
+/// Releases buffers to another queue family, so nothing waits for them here. `barriers` have their access masks;
+/// `before`: the stages that wrote the buffers.
 void releaseBuffers(const Device& device, VkCommandBuffer commandBuffer,
                     std::span<const VkBufferMemoryBarrier> barriers, VkPipelineStageFlags before);
 /// What compute shaders wrote before, compute shaders after may read (texel buffers too) and write.

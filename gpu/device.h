@@ -59,7 +59,7 @@ struct Device {
     Functions vk;
     Mapping mapping;
     VkPhysicalDeviceLimits limits{};
-    VkDeviceSize maxBufferSize = 0;     ///< VkPhysicalDeviceMaintenance4Properties; else without a bound
+    VkDeviceSize maxBufferSize = 0;     ///< VkPhysicalDeviceMaintenance4Properties; no bound before 1.3
     VkDeviceSize maxAllocationSize = 0; ///< VkPhysicalDeviceMaintenance3Properties
     VkPhysicalDeviceMemoryProperties memory{};
     uint32_t timestampValidBits = 0;

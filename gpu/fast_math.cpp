@@ -14,7 +14,7 @@ constexpr uint32_t instruction(uint32_t words, uint32_t op) {
     return words << 16 | op;
 }
 
-/// OpExtension of what SPIR-V has of itself from 1.4 on.
+/// The OpExtension that names float controls. From 1.4 on SPIR-V has them without it.
 std::vector<uint32_t> floatControls() {
     constexpr char kName[] = "SPV_KHR_float_controls";
     std::vector<uint32_t> words(1 + (sizeof(kName) + 3) / 4);

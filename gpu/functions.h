@@ -54,7 +54,7 @@ namespace supple::gpu {
     X(CmdFillBuffer)                                                                                                   \
     X(CmdUpdateBuffer)
 
-/// Of Vulkan 1.2: null where instance or device is older. Only what needs addresses calls it.
+/// Names of core 1.2: null where instance or device is older. Only what needs addresses calls it.
 #define SUPPLE_NEWER_FUNCTIONS(X) X(GetBufferDeviceAddress)
 
 /// VK_EXT_debug_utils, loaded only when the host says it enabled the extension.

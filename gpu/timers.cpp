@@ -1,4 +1,5 @@
 #include "gpu/timers.h"
+
 #include "gpu/barriers.h"
 
 #include <algorithm>

@@ -14,7 +14,7 @@ namespace supple::skinning {
 /// leave out what is not needed.
 struct PoseNeeds {
     bool mixes = false;   ///< update rates: what lies between two poses
-    bool steps = false;   ///< each of them is posed
+    bool steps = false;   ///< springs or soft vertices: each of their steps is posed
     bool springs = false; ///< some joints swing
     bool drivers = false; ///< morph weights follow from joints
     ClipKinds clips;

@@ -1,6 +1,6 @@
 // What a vertex of the cage becomes: morph targets, then skinning. Needs table(), pose(), `push`, and `bool kMorphs`,
-// `uint kSkinning`, `bool kMush`: whether that may be delta mush. GLSL has them from deform.comp; in C++ this is the inside of a
-// class (skinning/deform_twin.cpp).
+// `uint kSkinning`, `bool kMush`: whether that may be delta mush. GLSL has these three from kinds.glsl; in C++ this is the
+// inside of a class (skinning/deform_twin.cpp).
 // Whatever feeds the position is `precise`: both mappings and the CPU must give the same cage, bit for bit.
 
 vec3 placeOf(uint x, uint y, uint z) { return vec3(uintBitsToFloat(x), uintBitsToFloat(y), uintBitsToFloat(z)); }

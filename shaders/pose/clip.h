@@ -3,9 +3,10 @@
 // class (skinning/pose_twin.cpp), as nodes.h, layers.h and root.h are. Needs `const bool kKeyedClips`, `kPackedClips`: whether
 // some clips have channels of keys, and some are packed.
 //
-// Loops of much code are tested at the bottom, and what they do stands in an `if`: lavapipe would go through it once more than
-// there are turns, with no lane, and goes on computing lanes that have left while others go round. The `if` compares anew: where it
-// asked the very bool by which the loop is left, Mesa would take it for true, and leave it out.
+// Loops of much code are tested at the bottom: one that is tested at the top costs lavapipe one more turn, with no lane. What a turn
+// does stands in an `if`, for two reasons: there may be no turn at all, and lavapipe goes on computing lanes that have left while
+// others go round. The `if` compares anew: if it asked the very bool by which the loop is left, Mesa would take it for true and leave
+// it out.
 #include "shaders/pose/knots.h"
 #include "shaders/pose/nodes.h"
 #include "shaders/pose/packed.h"
@@ -17,8 +18,8 @@ struct KeySpan {
     float seconds; // 0: the key's own value
 };
 KeySpan keysAt(uvec4 channel, vec2 time) {
-    // The key from which on the time is before the next one; a key's own time gives its value as it is. Most clips have keys at
-    // even times, so that the first guess is right; else the key is among those from `low` on that are before `high`.
+    // The last key that is not later than the time; a key's own time gives its value as it is. Most clips have keys at even times,
+    // so that the first guess is right; else the key is one of `low` to `high`, which are the same if the time is outside of all.
     uint low = 0u, high = max(channel.x >> 2u, 1u) - 1u;
     uint key = uint(clamp(time.x * uintBitsToFloat(channel.y), 0.0f, float(max(high, 1u) - 1u)));
     float begin = 0.0f, end = 0.0f;

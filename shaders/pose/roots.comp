@@ -26,7 +26,7 @@ void main() {
         if ((header.y & kStateTravels) != 0u) {
             // A loop, so that the code is there once: where it stands, then for steps the way alone.
             uint way = 0u, ways = isStep() ? 2u : 1u;
-            do { // see clip.h
+            do { // at least once
                 precise Affine place = identity();
                 if (isPlaced() && way == 0u) place = transformOf(first);
                 uint rows = way == 0u ? kAffineElements * push.nodeCount : push.springScratch;
@@ -36,7 +36,7 @@ void main() {
         }
     }
     uint foot = 0u;
-    do {
+    do { // see clip.h
         if (foot < push.footCount) {
             precise vec4 held = heldFoot(first, foot);
             scratch.at[locals + kAffineElements * (push.nodeCount + 1u) + foot] = held;
