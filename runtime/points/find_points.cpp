@@ -26,10 +26,6 @@ constexpr double kLongestStep = 0.25;
 constexpr double kTie = 1e-6;
 constexpr SuppleSurfacePoint kNoPoint{SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
 
-glm::dvec3 vectorAt(const float* v) {
-    return {v[0], v[1], v[2]};
-}
-
 /// Newton's method for the distance, held to a piece.
 class NearestInPiece {
 public:
@@ -50,7 +46,8 @@ public:
             glm::dvec2 step = stepAt(*jet, best);
             bool nearer = false;
             for (int halving = 0; halving < 6 && !nearer && step != glm::dvec2(0.0); ++halving, step *= 0.5) {
-                Found next = held(best.a + step.x, best.b + step.y);
+                const glm::dvec2 at = piece_.held(glm::dvec2(best.a, best.b) + step);
+                Found next{at.x, at.y, 0.0};
                 const Result<SuppleSurfaceJet> there = jetAt(next);
                 if (!there) {
                     return there.error();
@@ -79,16 +76,6 @@ private:
     [[nodiscard]] double distanceOf(const SuppleSurfaceJet& jet) const {
         const glm::dvec3 e = vectorAt(jet.position) - to_;
         return glm::dot(e, e);
-    }
-    [[nodiscard]] Found held(double a, double b) const {
-        a = std::clamp(a, 0.0, 1.0);
-        b = std::clamp(b, 0.0, 1.0);
-        if (!piece_.isQuad && a + b > 1.0) { // straight to the slant
-            const double over = 0.5 * (a + b - 1.0);
-            a = std::clamp(a - over, 0.0, 1.0);
-            b = 1.0 - a;
-        }
-        return {a, b, 0.0};
     }
     /// On a border that the gradient pushes against, only the way along it is left.
     [[nodiscard]] glm::dvec2 stepAt(const SuppleSurfaceJet& jet, const Found& at) const {
@@ -394,7 +381,7 @@ Status findPoints(const std::shared_ptr<const CpuGroup>& group, std::shared_ptr<
     if (finder->pieces().empty()) {
         return Error{ErrorCode::argument, "the surfaces have no faces"};
     }
-    Status found = success(); // what UV is asked for is there
+    Status found = success(); // points of UV stand in out already
     if (query.kind == SUPPLE_FIND_NEAREST) {
         found = finder->findNearest(query.values, out);
     } else if (query.kind == SUPPLE_FIND_RAY) {

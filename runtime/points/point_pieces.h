@@ -4,6 +4,7 @@
 #include "cage/character.h"
 #include "supple/supple.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -13,6 +14,10 @@ namespace supple::runtime {
 
 class CpuGroup;
 
+[[nodiscard]] inline glm::dvec3 vectorAt(const float* v) {
+    return {v[0], v[1], v[2]};
+}
+
 /// A quad, a triangle, or of a face of more sides the triangle of a side and the middle.
 struct Piece {
     uint32_t face = 0, side = 0;
@@ -20,6 +25,16 @@ struct Piece {
 
     [[nodiscard]] SuppleSurfacePoint at(double a, double b) const {
         return {face, side, static_cast<float>(a), static_cast<float>(b)};
+    }
+    /// Back into the piece.
+    [[nodiscard]] glm::dvec2 held(glm::dvec2 at) const {
+        at = glm::clamp(at, 0.0, 1.0);
+        if (!isQuad && at.x + at.y > 1.0) { // straight to the slant
+            const double over = 0.5 * (at.x + at.y - 1.0);
+            at.x = std::clamp(at.x - over, 0.0, 1.0);
+            at.y = 1.0 - at.x;
+        }
+        return at;
     }
 };
 /// In the order of faces, without holes.

@@ -18,21 +18,6 @@ constexpr double kTriangleSlack = 1.0;
 /// A hit may be beside the ray by this part of the extent.
 constexpr double kRayTolerance = 2e-6;
 
-glm::dvec3 vectorOf(const float* v) {
-    return {v[0], v[1], v[2]};
-}
-
-/// Back into a piece.
-glm::dvec2 heldIn(bool isQuad, glm::dvec2 at) {
-    at = glm::clamp(at, 0.0, 1.0);
-    if (!isQuad && at.x + at.y > 1.0) { // straight to the slant
-        const double over = 0.5 * (at.x + at.y - 1.0);
-        at.x = std::clamp(at.x - over, 0.0, 1.0);
-        at.y = 1.0 - at.x;
-    }
-    return at;
-}
-
 } // namespace
 
 /// What one ray looks for.
@@ -91,7 +76,7 @@ private:
     }
     [[nodiscard]] Status begin(uint32_t number, const glm::dvec2& seed) {
         const Piece& piece = tree_.pieces_[number];
-        glm::dvec2 at = heldIn(piece.isQuad, seed);
+        glm::dvec2 at = piece.held(seed);
         Nearest nearest;
         for (int round = 0; round <= kRayRounds; ++round) {
             const SuppleSurfacePoint point = piece.at(at.x, at.y);
@@ -99,9 +84,9 @@ private:
             if (Status evaluated = tree_.pose_->evaluate({&point, 1}, &jet, {}); !evaluated) {
                 return evaluated;
             }
-            const glm::dvec3 position = vectorOf(jet.position);
-            const glm::dvec2 off = across(position), du(glm::dot(x_, vectorOf(jet.du)), glm::dot(y_, vectorOf(jet.du))),
-                             dv(glm::dot(x_, vectorOf(jet.dv)), glm::dot(y_, vectorOf(jet.dv)));
+            const glm::dvec3 position = vectorAt(jet.position);
+            const glm::dvec2 off = across(position), du(glm::dot(x_, vectorAt(jet.du)), glm::dot(y_, vectorAt(jet.du))),
+                             dv(glm::dot(x_, vectorAt(jet.dv)), glm::dot(y_, vectorAt(jet.dv)));
             if (const double distance = glm::length(off); distance < nearest.distance) {
                 nearest = {distance, at, position};
             }
@@ -112,7 +97,7 @@ private:
                 break; // seen edge on
             }
             step *= length > kLongestRayStep ? kLongestRayStep / length : 1.0;
-            const glm::dvec2 next = heldIn(piece.isQuad, at + step);
+            const glm::dvec2 next = piece.held(at + step);
             if (glm::all(glm::lessThan(glm::abs(next - at), glm::dvec2(kShortestRayStep)))) {
                 break;
             }

@@ -85,15 +85,17 @@ void UvTree::search(uint32_t number, const glm::dvec2& uv, size_t most, std::vec
 
 void UvTree::take(const Found& own, size_t most, std::vector<Found>& found) const {
     const auto isOfItsFace = [&](const Found& other) { return faces_[other.piece] == faces_[own.piece]; };
-    if (const auto same = std::find_if(found.begin(), found.end(), isOfItsFace); same != found.end()) {
-        if (own.piece < same->piece) {
-            *same = own;
-        }
+    const auto next = std::lower_bound(found.begin(), found.end(), own,
+                                       [](const Found& a, const Found& b) { return a.piece < b.piece; });
+    // A face's pieces follow each other, so one of the same face stands beside.
+    if (next != found.begin() && isOfItsFace(*(next - 1))) {
         return;
     }
-    found.insert(std::upper_bound(found.begin(), found.end(), own,
-                                  [](const Found& a, const Found& b) { return a.piece < b.piece; }),
-                 own);
+    if (next != found.end() && isOfItsFace(*next)) {
+        *next = own;
+        return;
+    }
+    found.insert(next, own);
     found.resize(std::min(found.size(), most));
 }
 

@@ -3,6 +3,7 @@
 #include "cage/skeleton.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace supple::cage::gltf {
@@ -69,7 +70,8 @@ json writeSpring(const Spring& spring, json joints) {
 class Trees {
 public:
     Trees(const Skeleton& skeleton, json& nodes)
-        : skeleton_(skeleton), nodes_(nodes), firstChild_(skeleton.nodes.size(), kNone), places_(restPlaces(skeleton)) {
+        : skeleton_(skeleton), nodes_(nodes), firstChild_(skeleton.nodes.size(), kNone),
+          jointOf_(skeleton.nodes.size(), kNoJoint), places_(restPlaces(skeleton)) {
         for (uint32_t node = 0; node < skeleton.nodes.size(); ++node) {
             if (const uint32_t parent = skeleton.nodes[node].parent; parent != kNone) {
                 firstChild_[parent] = std::min(firstChild_[parent], node);
@@ -78,6 +80,9 @@ public:
     }
 
     void write(const Spring& spring, json& springs) {
+        for (size_t j = 0; j < spring.joints.size(); ++j) {
+            jointOf_[spring.joints[j].node] = j;
+        }
         std::vector<bool> written(spring.joints.size());
         for (size_t j = 0; j < spring.joints.size(); ++j) {
             if (written[j]) {
@@ -85,7 +90,7 @@ public:
             }
             json joints = json::array();
             size_t last = j;
-            for (size_t next = j; next < spring.joints.size(); next = childOf(spring, last)) {
+            for (size_t next = j; next != kNoJoint; next = childOf(spring.joints[last])) {
                 joints.push_back(writeJoint(spring.joints[next]));
                 written[next] = true;
                 last = next;
@@ -95,15 +100,18 @@ public:
             }
             springs.push_back(writeSpring(spring, std::move(joints)));
         }
+        for (const SpringJoint& joint : spring.joints) {
+            jointOf_[joint.node] = kNoJoint;
+        }
     }
 
 private:
-    /// The joint that is the tail of another, or the number of joints: it is none of the spring.
-    [[nodiscard]] size_t childOf(const Spring& spring, size_t joint) const {
-        const uint32_t child = firstChild_[spring.joints[joint].node];
-        const auto found = std::find_if(spring.joints.begin(), spring.joints.end(),
-                                        [&](const SpringJoint& own) { return own.node == child; });
-        return static_cast<size_t>(found - spring.joints.begin());
+    static constexpr size_t kNoJoint = std::numeric_limits<size_t>::max();
+
+    /// The joint that is the tail of another, or kNoJoint: it is none of the spring.
+    [[nodiscard]] size_t childOf(const SpringJoint& joint) const {
+        const uint32_t child = firstChild_[joint.node];
+        return child != kNone ? jointOf_[child] : kNoJoint;
     }
 
     /// A node at the tail of a chain's last joint; kNone if it has none, and so does not swing.
@@ -133,6 +141,7 @@ private:
     const Skeleton& skeleton_;
     json& nodes_;
     std::vector<uint32_t> firstChild_; ///< by node
+    std::vector<size_t> jointOf_;      ///< by node: the number in the spring that is written
     std::vector<glm::dmat4> places_;
 };
 

@@ -276,18 +276,7 @@ step_suites() {
             "$(of_suites BlendOnGpu ExactOnGpu IndexedMesh LodViewsOnce PmMappings PmOnGpu SubdivisionOnGpu)")"
     fi
 }
-suites() {
-    local tests=$build/tests/runtime/supple_runtime_tests
-    if [ ! -x "$tests" ]; then
-        leave_out suites "there is no $tests"
-    elif [ -n "$filter" ]; then
-        suites suites 180 "$filter"
-    else
-        suites suites 180 "$(short '*/SubdivisionOnGpu.AttributesReach*' \
-            "$(of_suites BlendOnGpu ExactOnGpu IndexedMesh LodViewsOnce PmMappings PmOnGpu SubdivisionOnGpu)")"
-        suites patch_suites 90 "$(short '*/LoopOnGpu.LowerRates*' "$(of_suites FanRecords LanePatches LodExact LodLoop LoopMappings LoopOnGpu)")"
-    fi
-}
+# suites STEP FILTER
 suites() {
     run "$1" "$(seconds_of "$1")" "${validated[@]}" "$scripts/suites.sh" "$tests" "$2" "$jobs" || true
     grep -F '[  FAILED  ]' "$parts/$1.txt" | sort -u | head -n 20 | sed 's/^/    /' || true

@@ -370,7 +370,7 @@ void bindProfile(CLI::App& app, int& exitCode, const std::vector<std::string>& a
         ->capture_default_str();
     command
         ->add_option("--keep-unseen", options->keepUnseen,
-                     "Frames after which groups that nobody sees give memory back. When the others are measured the "
+                     "Frames after which groups that nobody sees give memory back. After the measured frames the "
                      "camera looks away, and the table says what goes back; 0: all stays")
         ->needs(view)
         ->check(CLI::Range(0u, 100000u))

@@ -1,6 +1,7 @@
 #include "tools/supple/soft_overlay.h"
 
 #include "cage/skeleton.h"
+#include "host/camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -189,17 +190,14 @@ Result<std::vector<Stroke>> softStrokes(const SoftFacts& facts, const host::Figu
     if (!cage || !palette)
         return !cage ? cage.error() : palette.error();
     const Nodes nodes(facts, std::move(*palette));
-    glm::vec3 low(0.0f), high(0.0f);
-    for (size_t v = 0; v < cage->size(); ++v) {
-        low = v == 0 ? (*cage)[v] : glm::min(low, (*cage)[v]);
-        high = v == 0 ? (*cage)[v] : glm::max(high, (*cage)[v]);
-    }
     if (shown.painted) {
         addPainted(facts.jiggles, *cage, kJiggle, strokes);
         addPainted(facts.cloths, *cage, kCloth, strokes);
     }
-    if (shown.colliders)
-        addColliders(facts, nodes, glm::length(high - low), strokes);
+    if (shown.colliders) {
+        const host::Bounds bounds = host::boundsOf(*cage);
+        addColliders(facts, nodes, glm::length(bounds.max - bounds.min), strokes);
+    }
     if (shown.springs)
         addSprings(facts, nodes, strokes);
     return std::move(strokes.all);
@@ -212,8 +210,7 @@ std::vector<SoftKey> softKeys(const SoftFacts& facts, const SoftShown& shown) {
     };
     const std::vector<cage::SpringCollider>& colliders = facts.springBones.colliders;
     if (shown.springs) {
-        keys.push_back(facts.springBones.springs.empty() ? SoftKey{kSpring, "no springs"}
-                                                         : SoftKey{kSpring, "springs"});
+        keys.push_back({kSpring, facts.springBones.springs.empty() ? "no springs" : "springs"});
         if (!facts.springBones.springs.empty())
             keys.push_back({kTail, "hit radius"});
     }

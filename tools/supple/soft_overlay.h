@@ -34,7 +34,7 @@ struct SoftFacts {
     [[nodiscard]] bool any() const { return !springBones.springs.empty() || !jiggles.empty() || !cloths.empty(); }
 };
 
-/// As the group was evaluated last, with what swings. Reads the device: no frame may be pending.
+/// As the group was evaluated last, with what swings. Waits for the device and reads it.
 [[nodiscard]] Result<std::vector<Stroke>> softStrokes(const SoftFacts& facts, const host::FigureGroup& group,
                                                       const SoftShown& shown);
 

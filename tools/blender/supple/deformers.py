@@ -64,9 +64,12 @@ class Deformers:
 
     def write(self, gltf):
         """When nodes have their numbers."""
-        for _, members, own in self._drivers:
+        for mesh, members, own in self._drivers:
             missing = own.resolve(lambda armature, bone: self._springs.node_number(gltf, armature, bone))
-            if missing:
-                self._report("the drivers of bone '%s' are left out: it is not exported" % missing)
-                members.pop("drivers", None)
+            for driver, bone in missing:
+                self._report("%s: the driver '%s' is left out: its bone '%s' is not exported" % (mesh.name, driver["name"], bone))
+            left_out = [driver for driver, _ in missing]
+            members["drivers"] = [driver for driver in members["drivers"] if driver not in left_out]
+            if not members["drivers"]:
+                del members["drivers"]
         self._springs.write(gltf)

@@ -23,8 +23,10 @@ class Sampled:
     def __init__(self, keys, inputs, poses, values):
         self.keys = keys
         self.inputs = inputs
-        self.poses = poses  # (x, y, z, w), pose after pose
-        self.values = values  # pose after pose, one for each key
+        self.found = len(poses)  # how many poses say something; more than MOST_POSES are thinned out
+        chosen = np.linspace(0, len(poses) - 1, MOST_POSES).astype(int) if len(poses) > MOST_POSES else range(len(poses))
+        self.poses = [poses[k] for k in chosen]  # (x, y, z, w), pose after pose
+        self.values = [values[k] for k in chosen]  # pose after pose, one for each key
 
 
 def _bones_in(fcurve):
@@ -44,15 +46,15 @@ def _bones_in(fcurve):
 
 
 def driven_keys(mesh):
-    """Name of a shape key -> (its driver, the pose bones that it reads), where bones drive its value."""
+    """Name of a shape key -> the pose bones that its driver reads, where the exporter writes the key and bones drive it."""
     keys = mesh.shape_keys
     found = {}
     for fcurve in keys.animation_data.drivers if keys and keys.animation_data else ():
         named = re.match(r'key_blocks\["((?:[^"\\]|\\.)*)"\]\.value$', fcurve.data_path)
-        if named and named.group(1) in keys.key_blocks and fcurve.is_valid:
+        if named and named.group(1) in target_numbers(mesh) and fcurve.is_valid:
             bones = _bones_in(fcurve)
             if bones:
-                found[named.group(1)] = (fcurve, bones)
+                found[named.group(1)] = bones
     return found
 
 
@@ -128,9 +130,6 @@ def _sample(mesh, keys, bones):
                 poses.append(rotations)
                 values.append(own[k])
     poser.values()
-    if len(poses) > MOST_POSES:
-        chosen = np.linspace(0, len(poses) - 1, MOST_POSES).astype(int)
-        poses, values = [poses[k] for k in chosen], [values[k] for k in chosen]
     inputs = [(bone.id_data.name, bone.name, _part_of(axes_of[bone])) for bone in moving]
     return Sampled(keys, inputs, poses, values)
 
@@ -138,17 +137,19 @@ def _sample(mesh, keys, bones):
 def sample(mesh, report):
     """All drivers of a mesh. Poses bones, and leaves them as they were: not while the exporter reads them."""
     by_bones = {}
-    for key, (_, bones) in driven_keys(mesh).items():
+    for key, bones in driven_keys(mesh).items():
         by_bones.setdefault(tuple(bones), []).append(key)
     found = []
     for bones, keys in by_bones.items():
         for first in range(0, len(keys), MOST_TARGETS):
             own = keys[first:first + MOST_TARGETS]
             sampled = _sample(mesh, own, bones)
-            if isinstance(sampled, Sampled):
-                found.append(sampled)
-            else:
+            if not isinstance(sampled, Sampled):
                 report("%s: the driver of '%s' is left out: %s" % (mesh.name, own[0], sampled))
+                continue
+            found.append(sampled)
+            if sampled.found > MOST_POSES:
+                report("%s: the driver of '%s' needs %d poses; %d of them are written" % (mesh.name, own[0], sampled.found, MOST_POSES))
     return found
 
 
@@ -165,8 +166,8 @@ class MeshDrivers:
         """`rest`: the weights of the mesh of the file."""
         self._rest = rest
         self._targets = target_numbers(mesh)
-        self._sampled = [s for s in sampled if all(key in self._targets for key in s.keys)]
-        self._pending = []  # members of inputs whose node is known later
+        self._sampled = sampled
+        self._pending = []  # (driver, members of an input, armature, bone): its node is known later
 
     @property
     def target_count(self):
@@ -176,10 +177,7 @@ class MeshDrivers:
         written = []
         for driver in self._sampled:
             values = np.array(driver.values)
-            inputs = []
-            for armature, bone, members in driver.inputs:
-                inputs.append({"node": 0, **members})
-                self._pending.append((inputs[-1], armature, bone))
+            inputs = [{"node": 0, **members} for _, _, members in driver.inputs]
             written.append({
                 "name": driver.inputs[0][1],
                 "inputs": inputs,
@@ -188,15 +186,17 @@ class MeshDrivers:
                 "targets": [self._targets[key] for key in driver.keys],
                 "clamp": [min(0.0, float(values.min())), max(0.0, float(values.max()))],
             })
+            self._pending += [(written[-1], own, armature, bone) for own, (armature, bone, _) in zip(inputs, driver.inputs)]
         return written
 
     def resolve(self, node_number):
-        """`node_number(armature, bone)`. Returns the first bone that was not exported, or None."""
-        for members, armature, bone in self._pending:
+        """`node_number(armature, bone)`. Returns (driver, bone) for each bone that was not exported."""
+        missing = []
+        for driver, members, armature, bone in self._pending:
             members["node"] = node_number(armature, bone)
             if members["node"] is None:
-                return bone
-        return None
+                missing.append((driver, bone))
+        return missing
 
     def still(self, weights):
         """Takes from keys of weights, one row a key, what drivers set: it is added again."""

@@ -7,6 +7,7 @@ from . import gltf_io
 
 EXTENSION = "SUPPLE_deformers"
 MUSH_MASK = "_SUPPLE_MUSH"
+MOST_COLLIDERS = 16  # of a cloth
 
 
 class SuppleJiggle(bpy.types.PropertyGroup):
@@ -103,7 +104,7 @@ class VertexGroups:
     """The weights of a mesh, while the exporter has it."""
 
     def __init__(self, mesh):
-        self._count = len(mesh.vertices)
+        self.count = len(mesh.vertices)
         self._weights = {}
         for vertex in mesh.vertices:
             for group in vertex.groups:
@@ -114,7 +115,7 @@ class VertexGroups:
         group = blender_object.vertex_groups.get(name)
         if group is None:
             return None
-        weights = np.zeros(self._count, np.float32)
+        weights = np.zeros(self.count, np.float32)
         for vertex, weight in self._weights.get(group.index, ()):
             weights[vertex] = weight
         return np.clip(weights, 0.0, 1.0)
@@ -147,10 +148,16 @@ class MeshWriter:
                 self._write(name, weights)
                 written.append({"weights": name, **entry.members()})
                 if kind == "cloth":
-                    written[-1]["colliders"] = collider_numbers(entry.colliders)
+                    written[-1]["colliders"] = self._met(collider_numbers(entry.colliders))
             if written:
                 members[kind] = written
         return members
+
+    def _met(self, colliders):
+        if len(colliders) > MOST_COLLIDERS:
+            self._report("%s: cloth: it meets %d of %d colliders; choose them by a collection"
+                         % (self._object.name, MOST_COLLIDERS, len(colliders)))
+        return colliders[:MOST_COLLIDERS]
 
     def _group(self, kind, name):
         weights = self._groups.weights(self._object, name)
@@ -160,13 +167,13 @@ class MeshWriter:
 
     def _weights_of(self, kind, entry):
         pins = entry.pin_group if kind == "cloth" else ""
-        if kind == "cloth" and not entry.vertex_group and pins:
-            weights = np.ones(len(self._object.data.vertices), np.float32)
+        if pins and not entry.vertex_group:
+            weights = np.ones(self._groups.count, np.float32)
         else:
             weights = self._group(kind, entry.vertex_group)
         if weights is not None and pins:
             pinned = self._group(kind, pins)
-            weights = None if pinned is None else weights[:len(pinned)] * (1.0 - pinned)
+            weights = None if pinned is None else weights * (1.0 - pinned)
         if weights is not None and not np.any(weights > 0):
             self._report("%s: %s: '%s' has no weight anywhere; left out" % (self._object.name, kind, entry.vertex_group or pins))
             return None

@@ -98,8 +98,8 @@ def _next(bone):
     return next((child for child in bone.children if child.supple.swings), None)
 
 
-def vrm_chains_of(armature):
-    """Those of the VRM add-on, if it is enabled and has some."""
+def vrm_chains_of(armature, report):
+    """Those of the VRM add-on, if it is enabled and has some. `report` takes a line for what is left out."""
     extension = getattr(armature.data, "vrm_addon_extension", None)
     spring_bone = getattr(extension, "spring_bone1", None)
     if spring_bone is None:
@@ -111,6 +111,7 @@ def vrm_chains_of(armature):
     for spring in spring_bone.springs:
         joints = [j for j in spring.joints if j.node.bone_name in armature.data.bones]
         if len(joints) < 2:
+            report("%s: '%s' has fewer than two bones; this spring is left out" % (armature.name, spring.vrm_name))
             continue
         numbers = [{"hitRadius": j.hit_radius, "stiffness": j.stiffness, "gravityPower": j.gravity_power,
                     "gravityDir": [j.gravity_dir[0], j.gravity_dir[2], -j.gravity_dir[1]], "dragForce": j.drag_force}
@@ -160,9 +161,13 @@ class Springs:
 
     def _chains_of(self, armature):
         if armature.name not in self._chains:
-            own = vrm_chains_of(armature)
+            own = vrm_chains_of(armature, self._report)
             taken = {bone for chain in own for bone in chain.bones + [chain.tail]}
-            own += [c for c in chains_of(armature) if taken.isdisjoint(c.bones)]
+            for chain in chains_of(armature):
+                if taken.isdisjoint(chain.bones):
+                    own.append(chain)
+                else:
+                    self._report("%s: '%s' swings as the VRM add-on says; its Supple Spring is left out" % (armature.name, chain.name))
             self._chains[armature.name] = own
         return self._chains[armature.name]
 
@@ -182,6 +187,8 @@ class Springs:
                 center = self.node_number(gltf, armature, chain.center)
                 if center is not None:
                     spring["center"] = center
+                elif chain.center:
+                    self._report("%s: '%s' swings in the world: its center '%s' is not exported" % (armature, chain.name, chain.center))
                 met = self.collider_numbers(chain.colliders)
                 if met:
                     spring["colliderGroups"] = [self._group(groups, met)]
@@ -209,6 +216,8 @@ class Springs:
             # Its number is named already: it stays, far from everything.
             self._report("%s: the collider is not exported" % empty.name)
             return {"node": 0, "shape": {"sphere": {"offset": [0.0, -10000.0, 0.0], "radius": 0.0}}}
+        if empty.supple.shape == "CAPSULE" and not empty.children:
+            self._report("%s: a capsule needs a child, where it ends; it is written as a sphere" % empty.name)
         shape, number = _shape_of(empty), gltf.nodes.index(node)
         if "plane" not in shape and not empty.supple.inside:
             return {"node": number, "shape": shape}
