@@ -31,6 +31,24 @@ TEST(Device, ErrorsSayWhatRanOut) {
     EXPECT_EQ(other.message, "buffer of skins: VK_ERROR_TOO_MANY_OBJECTS (-10)");
 }
 
+TEST(Device, FindsInEitherStructWhetherAddressesAreEnabled) {
+    EXPECT_FALSE(enablesAddresses(nullptr));
+    VkPhysicalDeviceVulkan12Features all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceBufferDeviceAddressFeatures alone{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES};
+    // Something that Supple does not know stands between.
+    VkPhysicalDeviceSamplerYcbcrConversionFeatures between{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SAMPLER_YCBCR_CONVERSION_FEATURES};
+    VkPhysicalDeviceFeatures2 first{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    first.pNext = &between;
+    for (const VkBool32 enabled : {VK_FALSE, VK_TRUE}) {
+        all.bufferDeviceAddress = alone.bufferDeviceAddress = enabled;
+        for (void* const last : {static_cast<void*>(&all), static_cast<void*>(&alone)}) {
+            between.pNext = last;
+            EXPECT_EQ(enablesAddresses(&first), enabled == VK_TRUE);
+        }
+    }
+}
+
 TEST(Device, WindowsFitEveryDescriptor) {
     test::FakeVulkan vulkan;
     Device& device = vulkan.device;

@@ -1615,8 +1615,8 @@ void groups(Rows& r) {
                  [=](World& w) { return suppleSetRate(w.handle(), w.mine.main.group, rate); });
     }
     constexpr const char* kWind = "suppleSetWind";
-    static const float kBreeze[3] = {1.0f, 0.0f, -SUPPLE_MAX_WIND}, kNoWind[3] = {0.0f, NAN, 0.0f},
-                       kGale[3] = {0.0f, 0.0f, 1.1f * SUPPLE_MAX_WIND};
+    static constexpr float kBreeze[3] = {1.0f, 0.0f, -SUPPLE_MAX_WIND}, kNoWind[3] = {0.0f, kNan, 0.0f},
+                           kGale[3] = {0.0f, 0.0f, 1.1f * SUPPLE_MAX_WIND};
     r.groups(kWind, [](World&, SuppleContext c, SuppleGroup g) { return suppleSetWind(c, g, kBreeze); });
     r.refuse(kWind, "null", SUPPLE_MESSAGE_NULL_POINTER,
              [](World& w) { return suppleSetWind(w.handle(), w.mine.main.group, nullptr); });

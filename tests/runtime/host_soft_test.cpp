@@ -118,23 +118,15 @@ TEST_F(HostSoft, HasTheSameWordsInBothMappingsAndSharedDispatches) {
     }
 }
 
-/// Two groups whose instances are posed alike, of which one meets with something.
-struct TwoSoftGroups {
-    TwoSoftGroups(CrowdContext& context, uint32_t capacity, uint32_t more = 0)
-        : asset(context.asset(kCapedFile)), other(context, posedGroup(asset, capacity, kSoftFlag | more), kHop),
-          plain(context, posedGroup(asset, capacity, kSoftFlag), kHop) {}
-    void run(uint32_t step) {
-        for (PosedGroup* const group : {&other, &plain}) {
-            for (uint32_t i = 0; i < group->instances.size(); ++i) {
-                group->poseClip(i, group->within(step / 60.0 + 0.1 * i));
-            }
-            group->frame(step / 60.0);
-        }
-    }
+/// Two groups of capes.
+struct TwoSoftGroups : TwoPosedGroups {
+    TwoSoftGroups(CrowdContext& context, uint32_t capacity)
+        : TwoSoftGroups(context, posedGroup(context.asset(kCapedFile), capacity, kSoftFlag)) {}
+    TwoSoftGroups(CrowdContext& context, const SuppleGroupDesc& desc)
+        : TwoPosedGroups(context, desc, desc, kHop), asset(desc.asset) {}
     [[nodiscard]] double off(uint32_t i) const { return farthestApart(other.cage(i), plain.cage(i)); }
 
     SuppleAsset asset;
-    PosedGroup other, plain;
 };
 
 TEST_F(HostSoft, GoesOnWhenTheCapacityChanges) {

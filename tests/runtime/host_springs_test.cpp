@@ -123,27 +123,20 @@ TEST_F(HostSprings, LeaveWhatDoesNotSwingToTheHost) {
     EXPECT_GT(stayed, 50u);
 }
 
-/// Two groups whose instances are posed alike, of which one meets with something.
-struct TwoPosedGroups {
-    TwoPosedGroups(CrowdContext& context, uint32_t capacity)
-        : asset(wrenWithSprings(context)), other(context, setGroup(asset, capacity)),
-          plain(context, setGroup(wrenWithSprings(context), capacity)) {}
-    void run(uint32_t step) {
-        for (PosedGroup* const group : {&other, &plain}) {
-            for (uint32_t i = 0; i < group->instances.size(); ++i) {
-                group->poseClip(i, group->within(step / 60.0 + 0.1 * i));
-            }
-            group->frame(step / 60.0);
-        }
-    }
+/// Two groups of wrens, each with an asset of its own.
+struct TwoSwingingGroups : TwoPosedGroups {
+    TwoSwingingGroups(CrowdContext& context, uint32_t capacity)
+        : TwoSwingingGroups(context, wrenWithSprings(context), capacity) {}
+    TwoSwingingGroups(CrowdContext& context, SuppleAsset ofOther, uint32_t capacity)
+        : TwoPosedGroups(context, setGroup(ofOther, capacity), setGroup(wrenWithSprings(context), capacity), kClip),
+          asset(ofOther) {}
     [[nodiscard]] double off(uint32_t i) const { return farthestApart(other.palette(i), plain.palette(i)); }
 
-    SuppleAsset asset;
-    PosedGroup other, plain;
+    SuppleAsset asset; ///< of `other`
 };
 
 TEST_F(HostSprings, GoOnWhenTheCapacityChanges) {
-    TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 3);
+    TwoSwingingGroups both(context(SUPPLE_MAPPING_NARROW), 3);
     for (uint32_t step = 0; step < 40; ++step) {
         if (step == 15 || step == 25) {
             EXPECT_EQ(suppleSetCapacity(both.other.handle(), both.other.crowd.group(), step == 15 ? 9 : 5), SUPPLE_OK);
@@ -156,7 +149,7 @@ TEST_F(HostSprings, GoOnWhenTheCapacityChanges) {
 }
 
 TEST_F(HostSprings, AFrameThatIsCancelledHasNotBeen) {
-    TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    TwoSwingingGroups both(context(SUPPLE_MAPPING_NARROW), 2);
     for (uint32_t step = 0; step < 30; ++step) {
         if (step % 5 == 3 || step == 0) {
             both.other.poseClip(0, both.other.within(0.5));
@@ -173,7 +166,7 @@ TEST_F(HostSprings, AFrameThatIsCancelledHasNotBeen) {
 }
 
 TEST_F(HostSprings, ANewInstanceBeginsAnewAlsoWhereAFrameIsCancelled) {
-    TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    TwoSwingingGroups both(context(SUPPLE_MAPPING_NARROW), 2);
     for (uint32_t step = 0; step < 30; ++step) {
         if (step == 15) {
             both.other.crowd.context().setTime(step / 60.0);
@@ -196,7 +189,7 @@ TEST_F(HostSprings, ANewInstanceBeginsAnewAlsoWhereAFrameIsCancelled) {
 
 TEST_F(HostSprings, HiddenInstancesCatchUpOrSettle) {
     CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
-    TwoPosedGroups both(own, 2);
+    TwoSwingingGroups both(own, 2);
     PosedGroup still(own, setGroup(both.asset, 2, 0));
     for (uint32_t step = 0; step < 150; ++step) {
         const bool hidden = (step > 10 && step < 18) || (step > 30 && step < 45);
@@ -234,9 +227,7 @@ TEST_F(HostSprings, StayFiniteWhereTheHostMakesJointsFlat) {
                 const glm::mat4 m = glm::mat4(still.jointOf(0, j)) * glm::scale(glm::mat4(1.0f), scale);
                 matrices.insert(matrices.end(), glm::value_ptr(m), glm::value_ptr(m) + 16);
             }
-            EXPECT_EQ(suppleSetMatrixPose(set.handle(), set.instances[0], matrices.data(),
-                                          static_cast<uint32_t>(set.character().skin.joints.size())),
-                      SUPPLE_OK);
+            set.poseMatrices(0, matrices);
             set.frame(n / 60.0);
             for (const float f : set.palette(0)) {
                 ASSERT_TRUE(std::isfinite(f)) << n;
@@ -263,7 +254,7 @@ TEST_F(HostSprings, ComeAndGoWithTheAsset) {
 }
 
 TEST_F(HostSprings, TeleportsKeepHowTheyHang) {
-    TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    TwoSwingingGroups both(context(SUPPLE_MAPPING_NARROW), 2);
     const glm::mat4 far = glm::translate(glm::mat4(1.0f), glm::vec3(100.0f, 0.0f, 0.0f));
     double untold = 0.0;
     for (uint32_t step = 0; step < 40; ++step) {
@@ -287,7 +278,7 @@ TEST_F(HostSprings, TeleportsKeepHowTheyHang) {
 }
 
 TEST_F(HostSprings, SettleWhereTimeJumpsOrTheAssetIsLoadedAnewAndNotInTheBindPose) {
-    TwoPosedGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    TwoSwingingGroups both(context(SUPPLE_MAPPING_NARROW), 2);
     for (uint32_t step = 0; step < 40; ++step) {
         if (step == 20) {
             reloadWren(both.other.crowd.context(), both.asset, kWrenSprings);

@@ -112,7 +112,8 @@ TEST_F(PackedOnGpu, StandBesideOtherClipsInAGroup) {
     ASSERT_TRUE(kinds.keyed && kinds.packed && !kinds.coarse);
     const std::vector<std::byte> bytes = cooked(character, 0.0);
     const auto clips = static_cast<uint32_t>(character.clips.size());
-    for (const SuppleMapping mapping : {SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE}) {
+    for (const SuppleMapping mapping : kMappings) {
+        SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
         const ValidationGuard guard;
         ASSERT_TRUE(own.valid());

@@ -26,8 +26,13 @@ uint32_t trials() {
     return asked != nullptr ? static_cast<uint32_t>(std::strtoul(asked, nullptr, 10)) : 300u;
 }
 
+/// Null: the samples.
+const char* folderAsked() {
+    return std::getenv("SUPPLE_POINT_ASSETS");
+}
+
 std::vector<std::filesystem::path> filesToTry() {
-    const char* const asked = std::getenv("SUPPLE_POINT_ASSETS");
+    const char* const asked = folderAsked();
     std::vector<std::filesystem::path> files;
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(asked != nullptr ? asked : SUPPLE_SAMPLE_ASSETS)) {
@@ -257,11 +262,14 @@ class RandomPoints : public CrowdContexts {};
 
 TEST_F(RandomPoints, LieOnTheSurfacesOfFiles) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    // Places that may have a nearer point. None of those at samples had; shapes of a few large faces have some.
+    const double mostFarther = folderAsked() != nullptr ? 0.01 * trials() : 1.0 + 0.002 * trials();
     uint32_t characters = 0;
     for (const std::filesystem::path& path : filesToTry()) {
         const SuppleAsset asset = assetOf(own, path);
         if (asset.id == 0) {
             std::printf("%s: refused\n", path.filename().c_str());
+            EXPECT_NE(folderAsked(), nullptr) << path;
             (void)own.takeLines();
             continue;
         }
@@ -285,16 +293,17 @@ TEST_F(RandomPoints, LieOnTheSurfacesOfFiles) {
                         "%.1e; %.1f s\n",
                         path.filename().c_str(), scheme, trial.hits, trials(), trial.beside, trial.farther, trial.skew,
                         seconds.count());
+            EXPECT_GT(trial.hits, trials() / 50) << path << ", scheme " << scheme;
             EXPECT_LE(trial.beside, 5e-6) << path << ", scheme " << scheme;
-            EXPECT_LE(trial.farther, 0.01 * trials()) << path << ", scheme " << scheme;
+            EXPECT_LE(trial.farther, mostFarther) << path << ", scheme " << scheme;
             EXPECT_LE(trial.skew, 2e-6) << path << ", scheme " << scheme;
-            EXPECT_LE(trial.off, 1e3) << path << ", scheme " << scheme;
+            EXPECT_LE(trial.off, 2.0) << path << ", scheme " << scheme;
             ++characters;
             (void)own.takeLines();
         }
         EXPECT_EQ(suppleDestroyAsset(own.handle(), asset), SUPPLE_OK);
     }
-    EXPECT_GE(characters, 12u);
+    EXPECT_GE(characters, folderAsked() != nullptr ? 1u : 12u);
 }
 
 } // namespace

@@ -88,6 +88,7 @@ TEST(SmallDevices, NameWhatNeedsMore) {
         EXPECT_EQ(
             suppleQueryRequirements(small->instance(), small->physicalDevice(), &wrappedGetInstanceProcAddr, &needs),
             SUPPLE_ERROR_UNSUPPORTED);
+        EXPECT_STRNE(needs.reason, "");
         LoggedContext context(*small, [&, flags = flag](SuppleContextDesc& desc) {
             desc.mapping = SUPPLE_MAPPING_WIDE;
             desc.flags |= flags;

@@ -70,6 +70,24 @@ private:
     uint32_t clip_;
 };
 
+/// Two groups whose instances are posed alike, of which one meets with something.
+struct TwoPosedGroups {
+    TwoPosedGroups(CrowdContext& context, const SuppleGroupDesc& otherDesc, const SuppleGroupDesc& plainDesc,
+                   uint32_t clip)
+        : other(context, otherDesc, clip), plain(context, plainDesc, clip) {}
+    /// A frame of each, a sixtieth of a second behind the one of the step before.
+    void run(uint32_t step) {
+        for (PosedGroup* const group : {&other, &plain}) {
+            for (uint32_t i = 0; i < group->instances.size(); ++i) {
+                group->poseClip(i, group->within(step / 60.0 + 0.1 * i));
+            }
+            group->frame(step / 60.0);
+        }
+    }
+
+    PosedGroup other, plain;
+};
+
 inline glm::mat4 placedAt(double time) {
     const auto t = static_cast<float>(time);
     return glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(1.5f * t, 0.0f, 0.3f * std::sin(3.0f * t))), t,

@@ -400,8 +400,15 @@ TEST(GltfWriter, SpringsComeBack) {
     }
     EXPECT_EQ(again->springBones.colliderGroups, bones.colliderGroups);
     ASSERT_EQ(again->springBones.colliders.size(), 2u);
-    EXPECT_EQ(again->springBones.colliders[0].tail, capsule.tail);
-    EXPECT_TRUE(again->springBones.colliders[1].inside);
+    for (size_t i = 0; i < 2; ++i) {
+        const SpringCollider &here = again->springBones.colliders[i], &there = bones.colliders[i];
+        EXPECT_EQ(here.node, there.node);
+        EXPECT_EQ(here.shape, there.shape);
+        EXPECT_EQ(here.inside, there.inside);
+        EXPECT_EQ(here.offset, there.offset);
+        EXPECT_EQ(here.tail, there.tail);
+        EXPECT_EQ(here.radius, there.radius);
+    }
 }
 
 TEST(GltfWriter, BranchesOfVrm0BecomeChains) {
