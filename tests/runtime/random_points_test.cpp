@@ -26,7 +26,7 @@ uint32_t trials() {
     return asked != nullptr ? static_cast<uint32_t>(std::strtoul(asked, nullptr, 10)) : 300u;
 }
 
-/// Null: the samples.
+/// Null: the samples, without those that differ in what moves alone.
 const char* folderAsked() {
     return std::getenv("SUPPLE_POINT_ASSETS");
 }
@@ -37,7 +37,8 @@ std::vector<std::filesystem::path> filesToTry() {
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(asked != nullptr ? asked : SUPPLE_SAMPLE_ASSETS)) {
         const std::string ending = entry.path().extension().string();
-        if (ending == ".glb" || ending == ".gltf" || ending == ".obj") {
+        const bool isVariant = asked == nullptr && entry.path().stem().string().ends_with("_moving");
+        if (!isVariant && (ending == ".glb" || ending == ".gltf" || ending == ".obj")) {
             files.push_back(entry.path());
         }
     }
@@ -273,7 +274,10 @@ TEST_F(RandomPoints, LieOnTheSurfacesOfFiles) {
             (void)own.takeLines();
             continue;
         }
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_AUTO, SUPPLE_SCHEME_PM, SUPPLE_SCHEME_LOOP}) {
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_AUTO}) {
+            if (scheme == SUPPLE_SCHEME_AUTO && folderAsked() == nullptr) {
+                continue; // it takes one of the others
+            }
             SuppleGroupDesc desc{};
             desc.asset = asset;
             desc.capacity = 1;
@@ -303,7 +307,7 @@ TEST_F(RandomPoints, LieOnTheSurfacesOfFiles) {
         }
         EXPECT_EQ(suppleDestroyAsset(own.handle(), asset), SUPPLE_OK);
     }
-    EXPECT_GE(characters, folderAsked() != nullptr ? 1u : 12u);
+    EXPECT_GE(characters, folderAsked() != nullptr ? 1u : 8u);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // The least that Supple runs on: Vulkan 1.1 of instance and device, no feature and no extension. Surfaces have the bits
 // that they have with all that a newer device offers.
 #include "tests/support/crowd.h"
+#include "tests/support/played_group.h"
 #include "tests/support/sample_assets.h"
 #include "tests/support/wrapped_vulkan.h"
 
@@ -48,6 +49,21 @@ std::vector<PositionBits> played(CrowdContext& context, SuppleScheme scheme, uin
     return bits;
 }
 
+/// Words of poses and cages that differ from the CPU's, of two instances that play on the device.
+uint64_t wordsOffWhenPlaying(CrowdContext& context) {
+    PlayedGroup played(context, playedGroup(context.asset(kPipQuads), 2, 0));
+    if (!played.crowd.valid()) {
+        return 1;
+    }
+    played.play(0, 0, 0.0);
+    played.play(1, 1, 0.2);
+    uint64_t off = 0;
+    for (const double time : {0.0, 0.3, 0.4}) {
+        off += played.run(time);
+    }
+    return off;
+}
+
 class SmallDevice : public testing::TestWithParam<SuppleMapping> {};
 
 TEST_P(SmallDevice, HasTheSameBits) {
@@ -67,6 +83,7 @@ TEST_P(SmallDevice, HasTheSameBits) {
                 EXPECT_EQ(differences(bits[i], wanted[i]), 0u) << "scheme " << scheme << ", " << i;
             }
         }
+        EXPECT_EQ(wordsOffWhenPlaying(few), 0u);
         EXPECT_EQ(few.takeError(), 0);
     }
     EXPECT_EQ(currentWrappedVulkan().unknownStructs, 0u);
