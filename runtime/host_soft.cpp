@@ -90,7 +90,7 @@ void HostSoft::begin(uint32_t slot, const HostSteps::Due& due, const glm::mat4& 
     }
     const uint32_t slotInWindow = slot - window_ * windowSize_;
     list_.addPose(slotInWindow, 0, 0.0);
-    list_.addSteps(slotInWindow, due.steps, room_.cloths);
+    list_.addSteps(slotInWindow, due.steps);
     const glm::mat4 rows = glm::transpose(placement);
     const VkDeviceSize first = frame_ % framesInFlight_ * capacity_ + window_ * windowSize_;
     std::memcpy(placesStaging_.mapped() + (first + shown_) * kPlaceBytes, &rows, 3 * sizeof(glm::vec4));
@@ -108,11 +108,17 @@ void HostSoft::copy(const Poses& from, uint32_t slot, Poses& to) const {
     copyRun(from.morphWeights, to.morphWeights, layout_.morphCount);
 }
 
+void HostSoft::put(const skinning::InstancePose& now, Poses& to, uint32_t slot) const {
+    const auto first = static_cast<ptrdiff_t>(size_t{slot} * layout_.jointCount);
+    std::copy(now.palette.begin(), now.palette.end(), to.palettes.begin() + first);
+    std::copy(now.rotations.begin(), now.rotations.end(), to.rotations.begin() + first);
+    std::copy_n(now.morphWeights.begin(), layout_.morphCount,
+                to.morphWeights.begin() + static_cast<ptrdiff_t>(size_t{slot} * layout_.morphCount));
+}
+
 void HostSoft::mix(uint32_t slot, float way, const skinning::InstancePose& now) {
     if (way >= 1.0f) {
-        std::copy(now.palette.begin(), now.palette.end(), mixed_.palettes.begin());
-        std::copy(now.rotations.begin(), now.rotations.end(), mixed_.rotations.begin());
-        std::copy_n(now.morphWeights.begin(), layout_.morphCount, mixed_.morphWeights.begin());
+        put(now, mixed_, 0);
         return;
     }
     const size_t first = size_t{slot} * layout_.jointCount, firstWeight = size_t{slot} * layout_.morphCount;
@@ -136,17 +142,13 @@ void HostSoft::step(uint32_t slot, float way, const skinning::InstancePose& now,
     springs.showStep(slot, mixed_.palettes, mixed_.rotations);
     const VkDeviceSize first = (frame_ % framesInFlight_ * capacity_ + window_ * windowSize_) * poseBytes();
     skinning::writePose(layout_, {mixed_.palettes, mixed_.rotations, mixed_.morphWeights, glm::mat4(1.0f)},
-                        posesStaging_.mapped() + first + steps_ * (poseBytes() / shared::kMostSpringSteps));
+                        posesStaging_.mapped() + first + steps_ * stepBytes());
     ++steps_;
 }
 
 void HostSoft::end(uint32_t slot, const skinning::InstancePose& now) {
     if (areTaken()) {
-        const auto first = static_cast<ptrdiff_t>(size_t{slot} * layout_.jointCount);
-        std::copy(now.palette.begin(), now.palette.end(), before_.palettes.begin() + first);
-        std::copy(now.rotations.begin(), now.rotations.end(), before_.rotations.begin() + first);
-        std::copy_n(now.morphWeights.begin(), layout_.morphCount,
-                    before_.morphWeights.begin() + static_cast<ptrdiff_t>(size_t{slot} * layout_.morphCount));
+        put(now, before_, slot);
     }
 }
 
@@ -154,8 +156,7 @@ void HostSoft::endWindow() {
     const VkDeviceSize slot = VkDeviceSize{window_} * windowSize_,
                        inStaging = frame_ % framesInFlight_ * capacity_ + slot;
     if (steps_ > 0) {
-        const VkDeviceSize bytes = steps_ * (poseBytes() / shared::kMostSpringSteps);
-        poseCopies_.push_back({inStaging * poseBytes(), slot * poseBytes(), bytes});
+        poseCopies_.push_back({inStaging * poseBytes(), slot * poseBytes(), steps_ * stepBytes()});
     }
     if (shown_ > 0) {
         placeCopies_.push_back({inStaging * kPlaceBytes, slot * kPlaceBytes, shown_ * kPlaceBytes});

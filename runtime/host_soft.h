@@ -24,7 +24,8 @@ public:
     HostSoft(const skinning::PoseLayout& layout, uint32_t capacity, const StateRoom& room);
     /// False: nothing is soft, whatever this is told.
     [[nodiscard]] bool areTaken() const { return capacity_ > 0; }
-    [[nodiscard]] Status create(const gpu::Device& device, uint32_t windowSize, uint32_t framesInFlight); ///< once
+    /// Once; this stays where it is from then on, as its planned buffers point into it.
+    [[nodiscard]] Status create(const gpu::Device& device, uint32_t windowSize, uint32_t framesInFlight);
     /// What an instance takes of a buffer that is bound by windows.
     [[nodiscard]] static VkDeviceSize windowBytes(const skinning::PoseLayout& layout, const StateRoom& room);
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
@@ -56,11 +57,11 @@ private:
         void resize(const skinning::PoseLayout& layout, size_t count);
     };
     void copy(const Poses& from, uint32_t slot, Poses& to) const;
+    void put(const skinning::InstancePose& now, Poses& to, uint32_t slot) const;
     void mix(uint32_t slot, float way, const skinning::InstancePose& now); ///< into mixed_
     void endWindow();
-    [[nodiscard]] VkDeviceSize poseBytes() const {
-        return VkDeviceSize{shared::kMostSpringSteps} * layout_.stride * 16;
-    }
+    [[nodiscard]] VkDeviceSize stepBytes() const { return layout_.stride * gpu::kVec4Bytes; }
+    [[nodiscard]] VkDeviceSize poseBytes() const { return shared::kMostSpringSteps * stepBytes(); } ///< of an instance
 
     const gpu::Device* device_ = nullptr;
     skinning::PoseLayout layout_; ///< of steps

@@ -34,7 +34,7 @@ public:
     [[nodiscard]] bool runs(uint32_t slot) const { return areTaken() && slots_[slot].isPosed; }
     struct Due {
         SpringClock::Due steps;
-        /// Of each: the part of the way from the pose of the frame before to that of this one; 1: this one's.
+        /// How far each is on the way from the pose of the frame before to that of this one; 1: this one's.
         std::array<float, shared::kMostSpringSteps> ways{};
     };
     /// It has run them from now on.

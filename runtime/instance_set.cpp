@@ -27,7 +27,7 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
     set->desc_ = desc;
     set->cageStride_ = cageStrideOf(desc.asset->character.cage.vertexCount());
     Status status = success();
-    if (status && posesNodes(desc.source, desc.room.modifiers, desc.room.springs)) {
+    if (posesNodes(desc.source, desc.room.modifiers, desc.room.springs)) {
         status = desc.asset->makeClips(*desc.device);
     }
     if (status && desc.source != SUPPLE_POSES_CAGE_BUFFER) {

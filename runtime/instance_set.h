@@ -80,7 +80,7 @@ private:
     [[nodiscard]] Status takeSprings();
     /// Whether something is soft, and takes not too much; then the asset has its tables.
     [[nodiscard]] Status takeSoft();
-    /// Of the pose pass.
+    /// Those of the pose pass.
     [[nodiscard]] Status makePipelines();
     void takeCreaseAlphas(const InstanceSet& other, const AssetMatch& match);
 

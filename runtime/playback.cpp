@@ -28,14 +28,13 @@ float largestScale(const glm::mat3& linear) {
     return std::sqrt(most);
 }
 
-/// The length of the box that holds the cage at rest.
+/// The longest side of the box that holds the cage at rest.
 float extentOf(const cage::Cage& cage) {
-    glm::vec3 low(cage.positions.front()), high(low);
+    skinning::Box box = skinning::emptyBox();
     for (const glm::vec3& p : cage.positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
+        skinning::extend(box, p);
     }
-    const glm::vec3 size = high - low;
+    const glm::vec3 size(box.high - box.low);
     return std::max({size.x, size.y, size.z});
 }
 
@@ -56,7 +55,6 @@ Status Playback::create(const Desc& desc) {
     windowSize_ = desc.windowSize;
     posesInFrame_ = posesInFrame(desc.room);
     unshownPoses_ = unshownPoses(desc.room);
-    hasCloths_ = desc.room.cloths;
     push_ = posePushOf(*desc.asset, desc.layout, desc.room);
 
     modifiers_ = InstanceModifiers(desc.room.modifiers ? desc.capacity : 0, push_.morphCount);
@@ -74,7 +72,6 @@ Status Playback::create(const Desc& desc) {
         rates_ = UpdateRates(desc.capacity);
     }
     if (desc.room.hasSteps()) {
-        extent_ = extentOf(desc.asset->character.cage);
         springs_ = SpringClock(desc.capacity, desc.room.cloths);
     }
     if (desc.room.springs) {
@@ -543,6 +540,11 @@ void Playback::setSize(uint32_t slot, float pixelsPerUnit) {
     }
 }
 
+void Playback::takeStepSizes() {
+    extent_ = extentOf(asset_->character.cage);
+    detail_ = StepDetail(capacity_);
+}
+
 void Playback::setStepSize(uint32_t slot, float pixelsPerUnit) {
     const float scale = largestScale(glm::mat3(transforms_[slot]));
     detail_.setSize(slot, pixelsPerUnit * scale * extent_, time_);
@@ -587,7 +589,7 @@ void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
     }
     const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
     const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
-    list_.addSteps(slotInWindow, due, hasCloths_, fade);
+    list_.addSteps(slotInWindow, due, fade);
     for (uint32_t k = 0; k < due.count; ++k) {
         const std::span<const uint32_t> played = due.before[k] ? states_.before(slot) : states_.words(slot);
         const bool travels = (played[1] & kStateTravels) != 0;

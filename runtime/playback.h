@@ -159,7 +159,7 @@ public:
         detail_.forgetAll();
     }
     /// Steps are run where instances are large enough on the screen: in each frame, setStepSize() says so. Once.
-    void takeStepSizes() { detail_ = StepDetail(capacity_); }
+    void takeStepSizes();
     [[nodiscard]] bool takesStepSizes() const { return detail_.isTaken(); }
     void setStepSize(uint32_t slot, float pixelsPerUnit);
     /// Lists what is posed in a frame, of the instances that `worksOn` holds for.
@@ -247,7 +247,6 @@ private:
     skinning::PosePipelines pipelines_;
     Asset* asset_ = nullptr;
     uint32_t capacity_ = 0, windowSize_ = 0, posesInFrame_ = 1, unshownPoses_ = 0;
-    bool hasCloths_ = false;
     double time_ = 0.0;
     /// What some instance has ever been set to do.
     bool adds_ = false, roots_ = false, modifies_ = false, plants_ = false;
@@ -273,7 +272,7 @@ private:
 
     SpringClock springs_;
     StepDetail detail_;
-    float extent_ = 0.0f;       ///< of the character as it rests
+    float extent_ = 0.0f;       ///< of the character as it rests, if takesStepSizes()
     InstanceState springState_; ///< created if hasSprings()
     static constexpr double kNever = std::numeric_limits<double>::infinity();
     double firstStep_ = kNever; ///< the earliest time of a step in the list

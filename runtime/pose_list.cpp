@@ -27,12 +27,12 @@ void PoseList::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t 
     staging_ = staging.add({"supple list of poses staging", bytes_ * framesInFlight, VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
 }
 
-void PoseList::addSteps(uint32_t slot, const SpringClock::Due& due, bool askForDown, float fade) {
+void PoseList::addSteps(uint32_t slot, const SpringClock::Due& due, float fade) {
     using namespace shared;
     const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
     const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
     const uint32_t begins = due.settles ? kSpringSettles | due.skipped << kSpringSkippedShift : 0;
-    const bool moves = due.moves || due.blows || askForDown;
+    const bool moves = due.moves || due.blows || due.hasDown;
     swinging_.push_back({slot, static_cast<uint32_t>(steps_.size()), due.count | jump | number | begins,
                          std::bit_cast<uint32_t>(due.part), moves ? static_cast<uint32_t>(moves_.size()) + 1 : 0,
                          static_cast<uint32_t>(times_.size() / 2) - 1, std::bit_cast<uint32_t>(fade)});

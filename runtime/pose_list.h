@@ -61,10 +61,10 @@ public:
         mixes_.push_back(slot | earlierEnd << shared::kPosedEndShift);
         parts_.push_back(std::bit_cast<uint32_t>(part));
     }
-    /// Behind addPose() of the instance, with what is shown: its steps. Their flags are 0. `askForDown`: steps need to
-    /// know where down is; `fade`: how much is shown of what they do.
-    void addSteps(uint32_t slot, const SpringClock::Due& due, bool askForDown, float fade = 1.0f);
-    /// Of the step `k` of the instance whose steps were added last: kPosedBefore, kPosedTravels.
+    /// Behind addPose() of the instance, with what is shown: its steps. Their flags are 0. `fade`: how much is shown of
+    /// what they do.
+    void addSteps(uint32_t slot, const SpringClock::Due& due, float fade = 1.0f);
+    /// Step `k` of the instance whose steps were added last: kPosedBefore, kPosedTravels.
     void flagStep(uint32_t k, uint32_t flags) { steps_[swinging_.back()[1] + k] |= flags; }
     void endWindow(uint32_t window);
 

@@ -64,7 +64,7 @@ int64_t springStepAt(double time) {
 }
 
 void Wind::set(const glm::dvec3& velocity, double time) {
-    if (!changed_) {
+    if (isAsked_ && !changed_) {
         before_ = now_;
         since_ = time;
         changed_ = true;
@@ -72,11 +72,18 @@ void Wind::set(const glm::dvec3& velocity, double time) {
     now_ = velocity;
 }
 
+void Wind::settle() {
+    const glm::dvec3 now = now_;
+    *this = {};
+    now_ = now;
+}
+
 void Wind::endFrame(uint64_t frame) {
     frame_ = frame;
     undoChanged_ = changed_;
     undoBefore_ = before_;
     undoSince_ = since_;
+    isAsked_ = true;
     changed_ = false;
 }
 
@@ -109,6 +116,7 @@ void SpringClock::place(uint32_t slot, double time) {
 }
 
 void SpringClock::settleAll() {
+    wind_.settle();
     undo_.clear();
     for (Slot& slot : slots_) {
         slot.last = kNever;
@@ -186,6 +194,7 @@ SpringClock::Due SpringClock::take(uint32_t slot, uint64_t frame, double time, c
     Slot& own = slots_[slot];
     undo_.push_back({slot, own});
     Due due = begun(own, time);
+    due.hasDown = findsDown_;
     if (due.settles) {
         own.atLast = own.inFrame = place;
         own.changed = own.jumped = kNoTime;

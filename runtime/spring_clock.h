@@ -36,10 +36,13 @@ struct SpringPlace {
     return static_cast<double>(step) / shared::kSpringSteps;
 }
 
-/// A wind that is set from time to time. Steps before a call have what blew until then.
+/// A wind that is set from time to time. Steps before a call have what blew until then, if a frame has had steps.
 class Wind {
 public:
     void set(const glm::dvec3& velocity, double time);
+    /// As if no frame had had steps: what was set last blows in all that come. A recording that begins late tells no
+    /// more than that.
+    void settle();
     [[nodiscard]] const glm::dvec3& at(double time) const { return changed_ && time < since_ ? before_ : now_; }
     /// A frame has asked for its steps: later calls change the wind of later ones.
     void endFrame(uint64_t frame);
@@ -48,6 +51,7 @@ public:
 private:
     glm::dvec3 now_{0.0}, before_{0.0};
     double since_ = 0.0;
+    bool isAsked_ = false; ///< a frame has asked for its steps
     bool changed_ = false; ///< since the last frame
     // What that frame has found.
     uint64_t frame_ = 0;
@@ -64,8 +68,7 @@ public:
     SpringClock(uint32_t capacity, bool findsDown) : findsDown_(findsDown), slots_(capacity) {
         undo_.reserve(capacity);
     }
-    /// False: no instance runs steps. What settles, jumps, is placed or changes counts for nothing then; of the rest
-    /// only the wind may be set.
+    /// False: no instance runs steps. Then take() and hasBefore() may not be called, and all else counts for nothing.
     [[nodiscard]] bool isTaken() const { return !slots_.empty(); }
 
     /// The instance begins anew with its next step: tails at rest in the pose.
@@ -99,9 +102,10 @@ public:
         bool moves = false;                                  ///< else all rows are the identity
         std::array<bool, shared::kMostSpringSteps> before{}; ///< posed by what was played before the last call
         std::array<std::array<glm::vec4, 3>, shared::kMostSpringSteps> rows{};
-        bool blows = false; ///< else there is no wind in any of them
-        // Of the world, in the frame that the host places:
-        std::array<glm::vec3, shared::kMostSpringSteps> down{}; ///< if they are found
+        bool blows = false;   ///< else there is no wind in any of them
+        bool hasDown = false; ///< whether `down` is found
+        // What the world has, in the frame that the host places:
+        std::array<glm::vec3, shared::kMostSpringSteps> down{};
         std::array<glm::vec3, shared::kMostSpringSteps> wind{}; ///< a velocity
     };
     /// It has run them from now on. Frames come with rising numbers.

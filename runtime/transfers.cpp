@@ -12,11 +12,7 @@ void Releases::take(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
     VkBufferMemoryBarrier& barrier = barriers_[count_];
     barrier = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER};
     barrier.srcAccessMask = after_.access;
-    barrier.srcQueueFamilyIndex = families_.compute;
-    barrier.dstQueueFamilyIndex = families_.draw;
-    barrier.buffer = buffer;
-    barrier.offset = offset;
-    barrier.size = size;
+    fill(barrier, buffer, offset, size);
     ++count_;
     if (count_ == kAtOnce) {
         flush();
@@ -37,11 +33,7 @@ void Acquires::take(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) {
         barrier = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
         barrier.dstStageMask = use_.stages;
         barrier.dstAccessMask = use_.access;
-        barrier.srcQueueFamilyIndex = families_.compute;
-        barrier.dstQueueFamilyIndex = families_.draw;
-        barrier.buffer = buffer;
-        barrier.offset = offset;
-        barrier.size = size;
+        fill(barrier, buffer, offset, size);
     }
     ++count_;
 }

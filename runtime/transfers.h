@@ -26,10 +26,20 @@ protected:
     Transfers& operator=(const Transfers&) = default;
     ~Transfers() = default;
 
-    QueueFamilies families_;
+    /// What changes hands, in a barrier without scopes.
+    template <class Barrier>
+    void fill(Barrier& barrier, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) const {
+        barrier.srcQueueFamilyIndex = families_.compute;
+        barrier.dstQueueFamilyIndex = families_.draw;
+        barrier.buffer = buffer;
+        barrier.offset = offset;
+        barrier.size = size;
+    }
 
 private:
     virtual void take(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size) = 0;
+
+    QueueFamilies families_;
 };
 
 /// Records the release of each buffer, some at a time. Allocates nothing.

@@ -41,13 +41,13 @@ Hull hullOf(const BoxRuns& boxes, const InstanceSlots& slots) {
             high[axis] = std::max(high[axis], middle + half);
             squares += half * half;
         }
-        least = std::min(least, std::sqrt(squares));
+        least = std::min(least, squares);
     }
     if (least == kInfinity) {
         return kNoHull;
     }
     Hull hull;
-    hull.least = least;
+    hull.least = std::sqrt(least);
     for (size_t axis = 0; axis < 3; ++axis) {
         hull.middle[axis] = 0.5f * low[axis] + 0.5f * high[axis];
         hull.half[axis] = 0.5f * high[axis] - 0.5f * low[axis];

@@ -31,7 +31,7 @@ struct Hull {
     std::array<float, 3> middle{}, half{};
     float least = 0.0f; ///< half the diagonal of the smallest of them
 };
-/// Of the visible slots.
+/// The hull of the visible slots' boxes.
 [[nodiscard]] Hull hullOf(const BoxRuns& boxes, const InstanceSlots& slots);
 
 /// How many pixels a unit has at most within a box; infinity if the camera may stand in it, or
@@ -57,7 +57,7 @@ private:
     const skinning::Reach* reach_ = nullptr;
     double margin_ = 0.0;
     Hull hull_;
-    // Of the last find(): PoseSource::boundsVersions, InstanceSlots::version.
+    // What find() saw last: PoseSource::boundsVersions, InstanceSlots::version.
     uint64_t posesVersion_ = 0, slotsVersion_ = 0;
     std::vector<uint64_t> versions_; ///< by slot: PoseSource::boundsVersion
     BoxRuns boxes_;

@@ -17,7 +17,7 @@ void findUnseen(const shared::CullView& view, const BoxRuns& boxes, std::span<ui
 
 /// How a view sees all of some boxes.
 enum class Sight : uint8_t { mixed, seen, unseen };
-/// Of all boxes that the hull holds what findUnseen() would say. `mixed`: not all the same, or it takes too long to
+/// What findUnseen() would say of all boxes that the hull holds. `mixed`: not the same of all, or it takes too long to
 /// say.
 [[nodiscard]] Sight sightOf(const shared::CullView& view, const Hull& hull);
 

@@ -1066,8 +1066,8 @@ typedef enum SuppleGroupFlags {
      * with UPDATE_RATES.
      *
      * With SUPPLE_POSES_SET the time is SuppleRecordDesc.time, and a step is posed straight between the pose of the
-     * frame before and that of its own, so what it leaves depends on frames too. Of the memory above node matrices and
-     * what is played are left out; 8 poses more are staging memory, for each frame in flight. */
+     * frame before and that of its own, so what it leaves depends on frames too. The memory is then without node
+     * matrices and what is played; 8 poses more are staging memory, for each frame in flight. */
     SUPPLE_GROUP_SOFT = 16384,
     /** Groups without a view, in a context with SUPPLE_CONTEXT_RAY_TRACING: the host may build acceleration structures
      * from the surface vertices (suppleGetRayGeometry). Grids have 12 bytes of indices more for each triangle of an
@@ -1405,10 +1405,10 @@ SUPPLE_API SuppleResult suppleGetRecordScopes(SuppleSyncScope* first, SuppleSync
 
 /** With SUPPLE_CONTEXT_ASYNC_COMPUTE, suppleRecord ends with barriers that release the outputs to drawQueueFamily. This
  * call gives the matching acquire barriers. Record them with one vkCmdPipelineBarrier2 in the command buffer that
- * draws, or, where there is no such function, the same members in VkBufferMemoryBarrier with vkCmdPipelineBarrier,
- * whose submission must wait for the compute submission's semaphore. Call it after the frame's suppleRecord and
- * before the next suppleBeginFrame. Release nothing back, because every frame writes the outputs anew. But the compute
- * submission must wait, by a semaphore, for the draws of earlier frames.
+ * draws. Where there is no such function, put the same members into VkBufferMemoryBarrier, for vkCmdPipelineBarrier.
+ * The submission that draws must wait for the compute submission's semaphore. Call it after the frame's suppleRecord
+ * and before the next suppleBeginFrame. Release nothing back, because every frame writes the outputs anew. But the
+ * compute submission must wait, by a semaphore, for the draws of earlier frames.
  * Ask for all groups that are drawn in one call. An acquire must match one release, so record each barrier once. A view
  * comes with the first of its groups in every call: if you ask in several, leave out what you have recorded.
  * use: the stages and accesses of the draws. Fills out and count. Errors: the context lacks that flag; a group was not
