@@ -1,6 +1,7 @@
 // A level of a depth pyramid (suppleSetDepthPyramid), for hosts that have none: from the depth picture to level 0, from each
-// level to the next. Self-contained: compile it as it is, for Vulkan 1.0 and later. For sizes of any kind, level 0 smaller
-// than the picture too: a texel takes the farthest of all that its rectangle touches.
+// level to the next. Self-contained: compile it as it is, for Vulkan 1.0 and later. Compiled for 1.3, it needs the feature
+// maintenance4. For sizes of any kind, level 0 smaller than the picture too: a texel takes the farthest of all that its
+// rectangle touches.
 //
 // A level is a dispatch of ((width + 7) / 8, (height + 7) / 8, 1) groups with
 //   binding 0   sampled image: the picture's depth aspect, of one sample a pixel, or a view of the level before alone

@@ -589,8 +589,9 @@ void swingAbout(CrowdContext& own, SwingingGroup& stage, uint32_t first, uint32_
     for (uint32_t f = first; f < last; ++f) {
         EXPECT_EQ(suppleSetTime(own.handle(), stage.crowd.group(), 0.03 * f), SUPPLE_OK);
         const uint32_t i = f % 3;
-        if (f % 4 == 1) {
+        if (f % 4 == 1) { // so does the first frame of the late recording
             stage.play(i, f % 3, 0.1 * f);
+            stage.setWind({0.5f * static_cast<float>(f), 0.0f, -4.0f});
         }
         if (f % 5 == 2) {
             stage.move(i, glm::rotate(glm::mat4(1.0f), 0.3f * static_cast<float>(f), glm::vec3(0, 1, 0)));
