@@ -789,8 +789,11 @@ void contexts(Rows& r) {
         d.drawQueueFamily = 1000;
     });
     static const VkPhysicalDeviceFeatures2 kNoFeatures{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr, {}};
-    spoiled("no features enabled", SUPPLE_ERROR_UNSUPPORTED, SUPPLE_MESSAGE_FEATURE_DISABLED,
-            [](Desc& d) { d.enabledFeatures = &kNoFeatures; });
+    spoiled("no features enabled", SUPPLE_ERROR_UNSUPPORTED, SUPPLE_MESSAGE_FEATURE_DISABLED, [](Desc& d) {
+        d.enabledFeatures = &kNoFeatures;
+        d.mapping = SUPPLE_MAPPING_WIDE;
+        d.flags |= SUPPLE_CONTEXT_SHARED_DISPATCHES;
+    });
 }
 
 /// A character as arrays: one rigid quad with a clip that moves its node.

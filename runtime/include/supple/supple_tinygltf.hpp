@@ -65,6 +65,7 @@ public:
         readMaterials();
         readParts(scene);
         readClips();
+        nameWhatIsLeftOut();
         desc_ = sized<SuppleCharacterDesc>();
         desc_.nodeCount = countOf(nodes_);
         desc_.nodes = nodes_.data();
@@ -100,6 +101,19 @@ private:
     void fail(const std::string& element, const std::string& reason) {
         warn(element, reason);
         sound_ = false;
+    }
+    /// What moves by itself has no place in a description.
+    void nameWhatIsLeftOut() {
+        for (const char* extension : {"SUPPLE_deformers", "VRMC_springBone"}) {
+            const std::vector<std::string>& used = model_->extensionsUsed;
+            if (std::find(used.begin(), used.end(), extension) != used.end()) {
+                warn(extension, "it is left out; SuppleAssetDesc.bytes takes the file with it");
+            }
+        }
+        const auto vrm = model_->extensions.find("VRM");
+        if (vrm != model_->extensions.end() && vrm->second.Has("secondaryAnimation")) {
+            warn("VRM", "its secondaryAnimation is left out; SuppleAssetDesc.bytes takes the file with it");
+        }
     }
     /// Lists whose addresses are handed over. Moving a list keeps its address.
     const float* keep(Floats values) {

@@ -52,13 +52,20 @@ cage::Character throughTinygltf(const std::string& path, Strings& messages) {
     return character.ok() ? std::move(*character) : cage::Character{};
 }
 
-/// What differs, by file: tinygltf cannot carry it.
+/// What differs, by file: a description cannot carry it.
 struct Lost {
     Strings messages;
     Strings differences;
 };
 const std::map<std::string, Lost>& lost() {
-    static const std::map<std::string, Lost> kLost = {};
+    const std::string reason = ": it is left out; SuppleAssetDesc.bytes takes the file with it";
+    const Strings springs{"springBones.springs.size()", "springBones.colliderGroups", "springBones.colliders.size()"};
+    Strings all{"weights.jiggles.size()", "jiggles.size()"};
+    all.insert(all.end(), springs.begin(), springs.end());
+    static const std::map<std::string, Lost> kLost = {
+        {"pip_moving.glb", {{"SUPPLE_deformers" + reason, "VRMC_springBone" + reason}, all}},
+        {"wren_moving.glb", {{"VRMC_springBone" + reason}, springs}},
+    };
     return kLost;
 }
 
@@ -83,8 +90,8 @@ TEST(TinygltfCharacters, AreThoseOfTheReader) {
         const Lost expected = known != lost().end() ? known->second : Lost{};
         EXPECT_EQ(CharacterDifferences(*file, handed, {true, true}).found(), expected.differences);
         EXPECT_EQ(messages, expected.messages);
-        EXPECT_TRUE(expected.differences.size() > 0 || file->cage.sourceVertices == handed.cage.sourceVertices);
-        EXPECT_TRUE(expected.differences.size() > 0 || file->seamVertexCount == handed.seamVertexCount);
+        EXPECT_TRUE(file->cage.sourceVertices == handed.cage.sourceVertices);
+        EXPECT_TRUE(file->seamVertexCount == handed.seamVertexCount);
         ++compared;
     }
     EXPECT_GT(compared, 1u);
