@@ -21,7 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint32_t kCapability[] = {2u << 16 | 17, 4466};
-constexpr uint32_t kHeader[] = {0x07230203, 0x00010600, 0, 9, 0};
+/// "SPV_KHR_float_controls"
+constexpr uint32_t kExtension[] = {7u << 16 | 10, 0x5F565053, 0x5F52484B, 0x616F6C66,
+                                   0x6F635F74,    0x6F72746E, 0x0000736C};
+constexpr uint32_t kHeader[] = {0x07230203, 0x00010300, 0, 9, 0};
 constexpr uint32_t kEntryPoint[] = {5u << 16 | 15, 5, 4, 0x6E69616D, 0}; // compute, %4, "main"
 constexpr uint32_t kMode[] = {4u << 16 | 16, 4, 4461, 32};
 
@@ -48,7 +51,7 @@ std::vector<uint32_t> codeOf(VkDriverId driver, VkBool32 keepsSignedZeros) {
 
 TEST(FastMath, IsForbiddenWhereADriverHasIt) {
     const std::vector<uint32_t> plain = joined({kHeader, kEntryPoint});
-    EXPECT_EQ(codeOf(VK_DRIVER_ID_MOLTENVK, VK_TRUE), joined({kHeader, kCapability, kEntryPoint, kMode}));
+    EXPECT_EQ(codeOf(VK_DRIVER_ID_MOLTENVK, VK_TRUE), joined({kHeader, kCapability, kExtension, kEntryPoint, kMode}));
     EXPECT_EQ(codeOf(VK_DRIVER_ID_MOLTENVK, VK_FALSE), plain) << "it does not know the mode";
     EXPECT_EQ(codeOf(VK_DRIVER_ID_MESA_RADV, VK_TRUE), plain) << "it keeps to NoContraction";
 }
@@ -67,7 +70,8 @@ TEST(FastMath, KernelsThatForbidItAreValid) {
         std::ifstream(entry.path(), std::ios::binary)
             .read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(4 * words.size()));
         const std::vector<uint32_t> changed = withoutFastMath(words);
-        EXPECT_EQ(changed.size(), words.size() + std::size(kCapability) + std::size(kMode)) << name;
+        EXPECT_EQ(changed.size(), words.size() + std::size(kCapability) + std::size(kExtension) + std::size(kMode))
+            << name;
         std::ofstream(file, std::ios::binary)
             .write(reinterpret_cast<const char*>(changed.data()), static_cast<std::streamsize>(4 * changed.size()));
         const std::string command = std::string(SUPPLE_SPIRV_VAL) + " --target-env vulkan1.2 " + file.string();

@@ -213,7 +213,7 @@ TEST(ExactTableCheck, SaysWhatIsWrong) {
     tables.words[4 * limits->section.table + 3] = 0xFFFFFFFFu;
     expectRefused(made, tables, "vertices with chains: 4294967295," + pool);
     tables = made.tables;
-    tables.words[4 * tables.constructions.back().section.table + 1] = 0xFFFFFFFFu;
+    tables.words[4 * tables.constructions.back().section.table + 1] += 1; // a record has two elements
     expectRefused(made, tables, "blocks of chains: not at the record of a vertex, or none");
     tables = made.tables;
     tables.words[4 * tables.constructions.front().section.table] = 0xFFFFFFFFu;
