@@ -5,8 +5,9 @@
 # The bare Debian stays in FOLDER/root and is used again.
 set -euo pipefail
 folder=$(mkdir -p "$1" && cd "$1" && pwd)
-mirror=${2:-http://deb.debian.org/debian}
 cd "$(dirname "$0")/.."
+. tools/packages.sh
+mirror=${2:-$(debian_mirror)}
 root=$folder/root
 if [ ! -e "$root/made" ]; then
     rm -rf "$root"

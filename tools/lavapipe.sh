@@ -5,15 +5,14 @@
 # Usage: tools/lavapipe.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/packages.sh
 
 folder=$PWD/build/lavapipe
 [ ! -e "$folder/lavapipe.json" ] || exit 0
 for tool in apt-get dpkg-deb; do
     command -v "$tool" >/dev/null || { echo "$tool is missing" >&2; exit 3; }
 done
-mirror=$(apt-get indextargets --format '$(ORIGIN)|$(CODENAME)|$(REPO_URI)' 'Created-By: Packages' |
-    awk -F'|' '$1 == "Debian" && $2 == "bookworm" { print $3 }' | sort -u | head -n 1)
-[ -n "$mirror" ] || { echo "no mirror of Debian 12 among this machine's package sources" >&2; exit 3; }
+mirror=$(debian_mirror)
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -60,3 +60,12 @@ install_missing() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
+
+# debian_mirror: where this machine gets Debian 12 from; says so and fails if it does not.
+debian_mirror() {
+    local mirror
+    mirror=$(apt-get indextargets --format '$(ORIGIN)|$(CODENAME)|$(REPO_URI)' 'Created-By: Packages' |
+        awk -F'|' '$1 == "Debian" && $2 == "bookworm" { print $3 }' | sort -u | head -n 1)
+    [ -n "$mirror" ] || { echo "no mirror of Debian 12 among this machine's package sources" >&2; return 3; }
+    echo "$mirror"
+}
