@@ -44,13 +44,18 @@ set(SUPPLE_SPIRV_PASSES
 
 set(supple_shader_script ${CMAKE_CURRENT_LIST_FILE})
 
-# Of `path+NAME...`: the file, the name of the array, and compiler flags, in shader_source, shader_name and shader_flags.
+# Of `path+NAME...`: the file, the name of the array, what it is compiled for and compiler flags, in shader_source, shader_name,
+# shader_target and shader_flags. Buffers by address, which shared dispatches read, are of Vulkan 1.2.
 macro(supple_shader_entry entry)
     string(MAKE_C_IDENTIFIER ${entry} shader_name)
     string(REPLACE "+" ";-D" shader_flags ${entry})
     list(POP_FRONT shader_flags shader_source)
     set(shader_source ${supple_SOURCE_DIR}/shaders/${shader_source})
-    list(PREPEND shader_flags --quiet -V --target-env ${SUPPLE_SPIRV_TARGET} -I${supple_SOURCE_DIR})
+    set(shader_target ${SUPPLE_SPIRV_TARGET})
+    if("${entry}" MATCHES "[+]TASKS")
+        set(shader_target vulkan1.2)
+    endif()
+    list(PREPEND shader_flags --quiet -V --target-env ${shader_target} -I${supple_SOURCE_DIR})
 endmacro()
 
 function(supple_embed_kernels target)
@@ -75,7 +80,7 @@ function(supple_embed_kernels target)
             # The SPIR-V comes first: it is what the dependencies that glslang writes are of.
             add_custom_command(OUTPUT ${base}.spv ${base}.h
                 COMMAND ${SUPPLE_GLSLANG} ${shader_flags} --depfile ${base}.d -o ${base}.spv ${shader_source}
-                COMMAND ${SUPPLE_SPIRV_OPT} --target-env=${SUPPLE_SPIRV_TARGET} ${SUPPLE_SPIRV_PASSES} ${base}.spv
+                COMMAND ${SUPPLE_SPIRV_OPT} --target-env=${shader_target} ${SUPPLE_SPIRV_PASSES} ${base}.spv
                         -o ${base}.opt.spv
                 COMMAND ${CMAKE_COMMAND} -DNAME=${shader_name} -DSPIRV=${base}.opt.spv -DOUT=${base}.h
                         -P ${supple_shader_script}
