@@ -36,6 +36,12 @@ glm::mat4 Camera::view() const {
     return glm::translate(glm::mat4(glm::transpose(world)), -eye());
 }
 
+glm::vec3 Camera::directionThrough(const glm::vec2& place, float aspect) const {
+    const float half = std::tan(0.5f * fieldOfView);
+    const glm::vec3 ahead(half * aspect * (2.0f * place.x - 1.0f), half * (1.0f - 2.0f * place.y), -1.0f);
+    return glm::transpose(glm::mat3(view())) * ahead;
+}
+
 glm::mat4 Camera::projection(float aspect, float sceneRadius) const {
     const float nearest = std::max(distance - sceneRadius * 2.0f, std::max(distance, sceneRadius) * 0.005f);
     const float farthest = distance + sceneRadius * 14.0f;

@@ -39,6 +39,9 @@ struct Camera {
 
     [[nodiscard]] glm::vec3 eye() const;
     [[nodiscard]] glm::mat4 view() const;
+    /// The direction, of any length, from the eye through a place of the picture: 0, 0 is its upper left corner, 1, 1
+    /// its lower right one.
+    [[nodiscard]] glm::vec3 directionThrough(const glm::vec2& place, float aspect) const;
     /// Right-handed, depth 0..1, y up (draw with a flipped viewport). Near and far enclose a sphere round the target.
     [[nodiscard]] glm::mat4 projection(float aspect, float sceneRadius) const;
 };

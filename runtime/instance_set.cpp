@@ -54,9 +54,13 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
 
 Status InstanceSet::makePipelines() {
     const StateRoom& room = desc_.room;
-    const Result<skinning::PosePipelines> made =
-        desc_.pose->make(desc_.mode, {room.updateRates, room.hasSteps(), room.springs, desc_.asset->hasDrivers(),
-                                      skinning::clipKinds(desc_.asset->character)});
+    skinning::PoseNeeds needs;
+    needs.mixes = room.updateRates;
+    needs.steps = room.hasSteps();
+    needs.springs = room.springs;
+    needs.drivers = desc_.asset->hasDrivers();
+    needs.clips = skinning::clipKinds(desc_.asset->character);
+    const Result<skinning::PosePipelines> made = desc_.pose->make(desc_.mode, needs);
     if (made) {
         pipelines_ = *made;
     }

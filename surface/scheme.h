@@ -54,6 +54,9 @@ struct Construction {
     uint32_t from = 0;         ///< by stencils: the first vertex that rows may name
     uint32_t to = 0;           ///< by stencils: pool index of the first row's point
 };
+/// Whether it runs rows of stencils (surface/stencil_table.h). Its section then counts the lanes of whole blocks, of
+/// which some have no row.
+[[nodiscard]] bool isByStencils(const Construction& construction);
 
 /// Consecutive patches of one class in device order.
 struct PatchRange {

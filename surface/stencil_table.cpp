@@ -101,6 +101,11 @@ KindOfKernel stencilKernel(bool fromPool, uint32_t numbers) {
     return {fromPool ? Kernel::subdivisionIsolateMeshInPool : Kernel::subdivisionIsolate, numbers};
 }
 
+bool isByStencils(const Construction& construction) {
+    return construction.kernel.kernel == Kernel::subdivisionIsolate ||
+           construction.kernel.kernel == Kernel::subdivisionIsolateMeshInPool;
+}
+
 void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWriter& writer, Tables& tables) {
     constexpr uint32_t kHalves = 0x10000;
     const uint32_t rows = stencils.rows();

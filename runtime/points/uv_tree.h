@@ -96,7 +96,7 @@ public:
         uint32_t piece = 0;
         glm::dvec2 at{0.0};
     };
-    /// Of the faces that cover the coordinates, the first `most`, one piece of each.
+    /// The first `most` faces that cover the coordinates, by one piece of each.
     [[nodiscard]] std::vector<Found> find(const glm::dvec2& uv, size_t most) const;
 
 private:

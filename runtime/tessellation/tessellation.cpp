@@ -220,7 +220,7 @@ PassCost Tessellation::recordStage(surface::Round& round, surface::Stage stage) 
     uint64_t points = 0, coefficients = 0;
     for (const surface::Construction& construction : tables().constructions) {
         if (construction.stage == stage) {
-            points += construction.section.count;
+            points += isByStencils(construction) ? construction.coefficients : construction.section.count;
             coefficients += construction.coefficients;
         }
     }

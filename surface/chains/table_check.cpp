@@ -33,11 +33,6 @@ bool checkOwnKernels(TableCheck& check, Subdivision subdivision) {
                                 {Stage::deepen, deeper}});
 }
 
-bool isStencils(const Construction& construction) {
-    return construction.kernel.kernel == Kernel::subdivisionIsolate ||
-           construction.kernel.kernel == Kernel::subdivisionIsolateMeshInPool;
-}
-
 bool isPlain(const Construction& construction) {
     return construction.kernel.kernel == Kernel::chainsVertex ||
            construction.kernel.kernel == Kernel::chainsVertexMeshInPool;
@@ -141,7 +136,7 @@ private:
 
     bool checkStencilRows() {
         for (const Construction& construction : tables_.constructions) {
-            if (!isStencils(construction)) {
+            if (!isByStencils(construction)) {
                 continue;
             }
             check_.begin("stencils");
@@ -159,7 +154,7 @@ private:
     /// Vertices first: blocks name them.
     bool checkChains() {
         ChainCheck chains(check_, subdivision_, lastLevel_);
-        const auto makes = [&](const Construction& c) { return !isStencils(c) && !isPlain(c); };
+        const auto makes = [&](const Construction& c) { return !isByStencils(c) && !isPlain(c); };
         for (const Construction& construction : tables_.constructions) {
             if (makes(construction) && construction.kernel.kind == shared::kMakesLimits &&
                 !chains.takeVertices(construction.section)) {

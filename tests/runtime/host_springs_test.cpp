@@ -137,32 +137,12 @@ struct TwoSwingingGroups : TwoPosedGroups {
 
 TEST_F(HostSprings, GoOnWhenTheCapacityChanges) {
     TwoSwingingGroups both(context(SUPPLE_MAPPING_NARROW), 3);
-    for (uint32_t step = 0; step < 40; ++step) {
-        if (step == 15 || step == 25) {
-            EXPECT_EQ(suppleSetCapacity(both.other.handle(), both.other.crowd.group(), step == 15 ? 9 : 5), SUPPLE_OK);
-        }
-        both.run(step);
-        for (uint32_t i = 0; i < 3; ++i) {
-            EXPECT_EQ(both.off(i), 0.0) << step;
-        }
-    }
+    expectTheSameInAnotherCapacity(both, 15, 25, [&](uint32_t i) { return both.off(i); });
 }
 
 TEST_F(HostSprings, AFrameThatIsCancelledHasNotBeen) {
     TwoSwingingGroups both(context(SUPPLE_MAPPING_NARROW), 2);
-    for (uint32_t step = 0; step < 30; ++step) {
-        if (step % 5 == 3 || step == 0) {
-            both.other.poseClip(0, both.other.within(0.5));
-            both.other.crowd.context().setTime(step / 60.0);
-            both.other.crowd.context().cancel(both.other.crowd.group());
-            for (PosedGroup* const group : {&both.other, &both.plain}) { // behind it
-                group->place(1, placedAt(step));
-                group->crowd.teleport(group->instances[1]);
-            }
-        }
-        both.run(step);
-        EXPECT_TRUE(both.off(0) == 0.0 && both.off(1) == 0.0) << step;
-    }
+    expectTheSameBehindCancelledFrames(both, [&](uint32_t i) { return both.off(i); });
 }
 
 TEST_F(HostSprings, ANewInstanceBeginsAnewAlsoWhereAFrameIsCancelled) {

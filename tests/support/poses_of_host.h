@@ -52,7 +52,7 @@ public:
         crowd.context().run(crowd.group());
         poses = as<float>(crowd.read(crowd.output().info.poses));
     }
-    /// Of an instance, as the last frame has left it.
+    /// The deformed cage of an instance in the last frame.
     [[nodiscard]] std::vector<float> cage(uint32_t i = 0) const {
         const std::vector<float> floats = as<float>(crowd.read(crowd.output().info.deformedCage));
         const size_t stride = size_t{4} * group().instances().cageStride();
@@ -69,6 +69,12 @@ public:
 private:
     uint32_t clip_;
 };
+
+inline glm::mat4 placedAt(double time) {
+    const auto t = static_cast<float>(time);
+    return glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(1.5f * t, 0.0f, 0.3f * std::sin(3.0f * t))), t,
+                       glm::vec3(0.0f, 1.0f, 0.0f));
+}
 
 /// Two groups whose instances are posed alike, of which one meets with something.
 struct TwoPosedGroups {
@@ -88,10 +94,37 @@ struct TwoPosedGroups {
     PosedGroup other, plain;
 };
 
-inline glm::mat4 placedAt(double time) {
-    const auto t = static_cast<float>(time);
-    return glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(1.5f * t, 0.0f, 0.3f * std::sin(3.0f * t))), t,
-                       glm::vec3(0.0f, 1.0f, 0.0f));
+/// Nothing changes where the one group has room for 9 instances from a step on, and for 5 from another. `off`: how far
+/// an instance is from that of the other group.
+template <class Off>
+void expectTheSameInAnotherCapacity(TwoPosedGroups& both, uint32_t nine, uint32_t five, const Off& off) {
+    for (uint32_t step = 0; step < five + 15; ++step) {
+        if (step == nine || step == five) {
+            EXPECT_EQ(suppleSetCapacity(both.other.handle(), both.other.crowd.group(), step == nine ? 9 : 5),
+                      SUPPLE_OK);
+        }
+        both.run(step);
+        for (uint32_t i = 0; i < both.plain.instances.size(); ++i) {
+            EXPECT_EQ(off(i), 0.0) << step;
+        }
+    }
+}
+/// Nor where it has frames that are cancelled, and behind these an instance that jumps.
+template <class Off>
+void expectTheSameBehindCancelledFrames(TwoPosedGroups& both, const Off& off) {
+    for (uint32_t step = 0; step < 30; ++step) {
+        if (step % 5 == 3 || step == 0) {
+            both.other.poseClip(0, both.other.within(0.5));
+            both.other.crowd.context().setTime(step / 60.0);
+            both.other.crowd.context().cancel(both.other.crowd.group());
+            for (PosedGroup* const group : {&both.other, &both.plain}) { // behind it
+                group->place(1, placedAt(step));
+                group->crowd.teleport(group->instances[1]);
+            }
+        }
+        both.run(step);
+        EXPECT_TRUE(off(0) == 0.0 && off(1) == 0.0) << step;
+    }
 }
 
 /// The joints of an instance of a group that stands where placedAt() says, in model space.

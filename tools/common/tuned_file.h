@@ -15,7 +15,7 @@ struct Tuning {
     bool operator==(const Tuning&) const = default;
 };
 
-/// Of a glTF or GLB file. Numbers stay in the range that files may have. Errors: it is another file.
+/// The file with its numbers multiplied, as far as files may have them. Errors: it is neither glTF nor GLB.
 [[nodiscard]] Result<CharacterFile> tunedFile(const CharacterFile& file, const Tuning& tuning);
 
 } // namespace supple::host

@@ -1,7 +1,6 @@
 // supple bake: the evaluated surface for other programs, as OBJ, PLY or GLB; the patches behind it as JSON.
 #include "base/utf8_path.h"
 #include "host/whole_file.h"
-#include "tools/common/character_file.h"
 #include "tools/common/word_hash.h"
 #include "tools/gltf/writer.h"
 #include "tools/supple/baked_mesh.h"
@@ -9,8 +8,8 @@
 #include "tools/supple/baked_patches.h"
 #include "tools/supple/baked_ply.h"
 #include "tools/supple/command.h"
-#include "tools/supple/evaluation.h"
 #include "tools/supple/output_files.h"
+#include "tools/supple/posed_file.h"
 #include "tools/supple/progress.h"
 
 #include <CLI/CLI.hpp>
@@ -170,19 +169,12 @@ Status writeBaked(const BakeOptions& options, const Evaluation& baked, const cag
 }
 
 int runBake(const BakeOptions& options) {
-    showProgress("reading " + options.file);
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
-    if (!file) {
-        return fail(kExitBadInput, file.error().message);
+    Result<PosedFile> posed =
+        readPosed(options.file, options.surface.reading, options.clip, options.time, options.morphs);
+    if (!posed) {
+        return fail(kExitBadInput, posed.error().message);
     }
-    const Result<uint32_t> clip = host::findClip(file->character, options.clip);
-    if (!clip) {
-        return fail(kExitBadInput, clip.error().message);
-    }
-    Result<std::vector<float>> weights = host::morphWeights(file->character, options.morphs);
-    if (!weights) {
-        return fail(kExitBadInput, weights.error().message);
-    }
+    const host::CharacterFile* const file = &posed->file;
     const Result<std::vector<SuppleScheme>> partSchemes =
         host::partSchemes(options.file, host::partNames(file->character), options.surface.partSchemes);
     if (!partSchemes) {
@@ -203,13 +195,14 @@ int runBake(const BakeOptions& options) {
     if (!transition) {
         return fail(kExitBadInput, transition.error().message);
     }
-    const Pose pose{options.restPose ? SUPPLE_REST_POSE : *clip,
-                    options.time,
-                    std::move(*weights),
-                    std::move(*modifiers),
-                    *transition,
-                    options.updateInterval,
-                    options.simulate};
+    Pose& pose = posed->pose;
+    if (options.restPose) {
+        pose.clip = SUPPLE_REST_POSE;
+    }
+    pose.modifiers = std::move(*modifiers);
+    pose.transition = *transition;
+    pose.updateInterval = options.updateInterval;
+    pose.simulate = options.simulate;
     showProgress("opening the device");
     const int code = withSession(options.device, [&](Session& session) -> Status {
         showProgress("compiling kernels and evaluating; the first time takes longest");

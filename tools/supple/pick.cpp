@@ -1,10 +1,9 @@
 // supple pick: what a ray, a pixel of a picture or a place meets of a surface in a pose.
 #include "host/camera.h"
-#include "tools/common/character_file.h"
 #include "tools/common/formatted.h"
 #include "tools/supple/command.h"
-#include "tools/supple/evaluation.h"
 #include "tools/supple/output_files.h"
+#include "tools/supple/posed_file.h"
 #include "tools/supple/progress.h"
 #include "tools/supple/render.h"
 #include "tools/supple/render_stage.h"
@@ -81,10 +80,8 @@ Result<Aim> aimAtPixel(const PickOptions& options, const std::vector<glm::vec3>&
     }
     const host::Camera camera =
         host::frameCamera(figure, radians(options.yaw), radians(options.pitch), extent.x / extent.y, kPictureMargin);
-    const float half = std::tan(camera.fieldOfView * 0.5f);
-    const glm::vec3 ahead(half * (2.0f * (pixel[0] + 0.5f) - extent.x) / extent.y,
-                          half * (1.0f - 2.0f * (pixel[1] + 0.5f) / extent.y), -1.0f);
-    const glm::vec3 origin = camera.eye(), direction = glm::transpose(glm::mat3(camera.view())) * ahead;
+    const glm::vec2 place = (glm::vec2(pixel[0], pixel[1]) + 0.5f) / extent;
+    const glm::vec3 origin = camera.eye(), direction = camera.directionThrough(place, extent.x / extent.y);
     return Aim{SUPPLE_FIND_RAY, {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z}};
 }
 
@@ -227,26 +224,14 @@ Status pickIn(Session& session, const host::CharacterFile& file, const PickOptio
 }
 
 int runPick(const PickOptions& options) {
-    showProgress("reading " + options.file);
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
-    if (!file) {
-        return fail(kExitBadInput, file.error().message);
+    const Result<PosedFile> posed =
+        readPosed(options.file, options.surface.reading, options.clip, options.time, options.morphs);
+    if (!posed) {
+        return fail(kExitBadInput, posed.error().message);
     }
-    const Result<uint32_t> clip = host::findClip(file->character, options.clip);
-    if (!clip) {
-        return fail(kExitBadInput, clip.error().message);
-    }
-    Result<std::vector<float>> weights = host::morphWeights(file->character, options.morphs);
-    if (!weights) {
-        return fail(kExitBadInput, weights.error().message);
-    }
-    Pose pose;
-    pose.clip = *clip;
-    pose.time = options.time;
-    pose.morphWeights = std::move(*weights);
     std::string text;
-    const int code =
-        withSession(options.device, [&](Session& session) { return pickIn(session, *file, options, pose, text); });
+    const int code = withSession(
+        options.device, [&](Session& session) { return pickIn(session, posed->file, options, posed->pose, text); });
     if (code == kExitOk && options.output.empty()) {
         std::fwrite(text.data(), 1, text.size(), stdout);
     } else if (code == kExitOk) {

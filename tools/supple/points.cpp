@@ -1,9 +1,8 @@
 // supple points: where points of a surface are in a pose, and how they are turned, as the device has them.
 #include "base/utf8_path.h"
-#include "tools/common/character_file.h"
 #include "tools/supple/command.h"
-#include "tools/supple/evaluation.h"
 #include "tools/supple/output_files.h"
+#include "tools/supple/posed_file.h"
 #include "tools/supple/progress.h"
 #include "tools/supple/text_file.h"
 
@@ -191,29 +190,18 @@ Status evaluatePoints(Session& session, const host::CharacterFile& file, const P
 }
 
 int runPoints(const PointsOptions& options) {
-    showProgress("reading " + options.file);
-    const Result<host::CharacterFile> file = host::readCharacterFile(options.file, options.surface.reading);
-    if (!file) {
-        return fail(kExitBadInput, file.error().message);
+    const Result<PosedFile> posed =
+        readPosed(options.file, options.surface.reading, options.clip, options.time, options.morphs);
+    if (!posed) {
+        return fail(kExitBadInput, posed.error().message);
     }
-    const Result<uint32_t> clip = host::findClip(file->character, options.clip);
-    if (!clip) {
-        return fail(kExitBadInput, clip.error().message);
-    }
-    Result<std::vector<float>> weights = host::morphWeights(file->character, options.morphs);
-    if (!weights) {
-        return fail(kExitBadInput, weights.error().message);
-    }
-    const Result<GivenPoints> given = readPoints(options.points, file->character);
+    const Result<GivenPoints> given = readPoints(options.points, posed->file.character);
     if (!given) {
         return fail(kExitBadInput, given.error().message);
     }
-    Pose pose;
-    pose.clip = *clip;
-    pose.time = options.time;
-    pose.morphWeights = std::move(*weights);
-    const int code = withSession(
-        options.device, [&](Session& session) { return evaluatePoints(session, *file, options, pose, *given); });
+    const int code = withSession(options.device, [&](Session& session) {
+        return evaluatePoints(session, posed->file, options, posed->pose, *given);
+    });
     if (code == kExitOk) {
         tellWritten(options.output);
     }

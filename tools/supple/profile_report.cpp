@@ -170,7 +170,7 @@ std::string holdersText(const ProfileRun& run) {
                        : "");
 }
 
-/// Of every holder what memoryJson() says, and what goes back if nobody is seen.
+/// An entry for each holder: what memoryJson() says, and what goes back if nobody is seen.
 Json holdersJson(const ProfileRun& run) {
     Json holders = Json::array();
     for (const MemoryHolder& holder : run.holders) {

@@ -25,10 +25,8 @@ struct CameraRay {
 
 CameraRay rayThrough(const ViewStage& stage, const glm::vec2& place, float aspect) {
     const host::Camera& camera = stage.camera();
-    const float half = std::tan(0.5f * camera.fieldOfView);
-    const glm::vec3 ahead(half * aspect * (2.0f * (place.x - stage.surfaceShift()) - 1.0f),
-                          half * (1.0f - 2.0f * place.y), -1.0f);
-    return {camera.eye(), glm::transpose(glm::mat3(camera.view())) * ahead};
+    const glm::vec2 shifted(place.x - stage.surfaceShift(), place.y);
+    return {camera.eye(), camera.directionThrough(shifted, aspect)};
 }
 
 /// How much each corner of the point's face has of the point, by straight lines.
