@@ -108,7 +108,7 @@ void Crowd::createKind(size_t number, const CrowdOptions& options) {
         desc.view = view_.handle();
     } else {
         desc.rate = fixedRate_;
-        desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_WINDOWS | (isDirect_ ? SUPPLE_GROUP_DIRECT : 0u);
+        desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_WINDOWS | (isDirect_ ? uint32_t{SUPPLE_GROUP_DIRECT} : 0u);
         if (desc.scheme == SUPPLE_SCHEME_BLEND) // which is not evaluated while it is drawn
             desc.scheme = SUPPLE_SCHEME_PM;
     }

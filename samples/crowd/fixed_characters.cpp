@@ -8,14 +8,17 @@
 #include "shaders/fixed_vert_DIRECT_SUPPLE_PATCH_TEXELS.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace crowd {
 
 namespace {
 
-/// fixed.vert: a SupplePatchRange, or in its first words a SuppleRange.
+/// A SupplePatchRange, or a SuppleRange and nothing behind it.
+using RangeWords = std::array<uint32_t, sizeof(SupplePatchRange) / sizeof(uint32_t)>;
+/// fixed.vert
 struct FixedPush {
-    SupplePatchRange range;
+    RangeWords range;
     uint32_t sun;
 };
 
@@ -32,7 +35,7 @@ public:
 
 private:
     [[nodiscard]] std::vector<Write> writesOf(Device& device, const Kind& kind, uint32_t window) const;
-    [[nodiscard]] SupplePatchRange rangeOf(const Kind& kind, uint32_t range, uint32_t window) const;
+    [[nodiscard]] RangeWords rangeOf(const Kind& kind, uint32_t range, uint32_t window) const;
 
     const Crowd& crowd_;
     bool direct_ = false, texels_ = false;
@@ -106,12 +109,12 @@ FixedCharacters::FixedCharacters(Device& device, const Crowd& crowd, VkDescripto
                                                             .depth = kDepthFormat}));
 }
 
-SupplePatchRange FixedCharacters::rangeOf(const Kind& kind, uint32_t range, uint32_t window) const {
+RangeWords FixedCharacters::rangeOf(const Kind& kind, uint32_t range, uint32_t window) const {
     const uint32_t firstSlot = window * kind.info.windowSize;
     if (direct_) {
         SupplePatchRange patches = kind.direct.ranges[range];
         patches.firstSlot = firstSlot;
-        return patches;
+        return std::bit_cast<RangeWords>(patches);
     }
     const SuppleDrawRange& draw = kind.grid.drawRanges[range];
     return {draw.patchCount, draw.firstVertex, draw.samplesPerPatch, kind.grid.verticesPerInstance, firstSlot};
