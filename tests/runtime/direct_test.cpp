@@ -318,6 +318,35 @@ TEST_F(Direct, KeepsItsBitsWhenItIsMadeAnewAndWhenItFollows) {
     followed.expectSame("a follower");
 }
 
+/// Its coefficients are memory that goes while nobody is drawn (SuppleGroupDesc.keepUnseenFrames).
+TEST_F(Direct, GivesItsCoefficientsBack) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    Evaluator evaluator(own.device(), false);
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kPipQuads);
+    desc.capacity = 2;
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.rate = 2;
+    desc.keepUnseenFrames = 1;
+    Crowd direct(own, Pair::withFlag(desc));
+    ASSERT_TRUE(direct.valid());
+    const SuppleInstance instance = direct.spawn();
+    direct.pose(instance, 0, 0.4, glm::mat4(1.0f));
+    own.run(direct.group());
+    const std::vector<glm::vec3> before = evaluator.evaluate(direct, 1);
+    direct.setVisible(instance, false);
+    for (uint32_t frame = 0; frame < 5; ++frame) {
+        own.run(direct.group());
+    }
+    EXPECT_EQ(directOutput(direct).coefficients.buffer, VK_NULL_HANDLE);
+    EXPECT_EQ(directOutput(direct).coefficients.size, 0u);
+    EXPECT_NE(directOutput(direct).tables.buffer, VK_NULL_HANDLE);
+    direct.setVisible(instance, true);
+    own.run(direct.group());
+    EXPECT_EQ(evaluator.evaluate(direct, 1), before);
+}
+
 SuppleMemoryUse memoryOf(const Crowd& crowd) {
     SuppleMemoryUse use{};
     use.structSize = sizeof use;

@@ -21,9 +21,10 @@ void main() {
     uint instance = i / range.samplesPerPatch, vertex = i % range.samplesPerPatch;
     SuppleVertex at = suppleVertex(drawn, instance, vertex);
     SuppleSample s = suppleEvaluate(range, suppleDrawnPatch(drawn, 0u, instance), at.slot, vertex);
+    vec3 position = s.position;
     uint to = 6u * (at.slot * verticesPerInstance + at.own);
     for (uint k = 0u; k < 3u; ++k) {
-        made[to + k] = s.position[k];
+        made[to + k] = position[k];
         made[to + 3u + k] = s.normal[k];
     }
 }
