@@ -318,6 +318,42 @@ TEST_F(Direct, KeepsItsBitsWhenItIsMadeAnewAndWhenItFollows) {
     followed.expectSame("a follower");
 }
 
+/// A sword of polygons in the hand of a P_m character.
+TEST_F(Direct, LeavesPartsOfOtherSchemesTheirVertices) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    Evaluator evaluator(own.device(), true);
+    std::vector<SuppleScheme> schemes(10, SUPPLE_SCHEME_PM);
+    schemes.back() = SUPPLE_SCHEME_POLYGONS;
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kWren);
+    desc.capacity = 2;
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.rate = 2;
+    desc.partSchemes = schemes.data();
+    desc.partSchemeCount = static_cast<uint32_t>(schemes.size());
+    Pair pair(own, desc, 0);
+    ASSERT_TRUE(pair.valid());
+    pair.run();
+    EXPECT_EQ(pair.direct.output(0).surface.tessellation, SUPPLE_TESSELLATION_DIRECT);
+    EXPECT_EQ(pair.direct.output(1).surface.tessellation, SUPPLE_TESSELLATION_INDEXED_MESH);
+    Compared compared;
+    compared.add(pair.stored, evaluator.evaluate(pair.direct, 2), 1);
+    compared.expectSame("all but the sword");
+    const auto sword = [](const Crowd& crowd) {
+        const std::vector<std::byte> all = crowd.slotBytes(crowd.output(1).streams.vertices, 1);
+        const uint32_t stride = crowd.output(1).streams.vertices.stride;
+        std::vector<std::byte> positions;
+        for (size_t v = 0; v < crowd.output(1).grid.vertexCount; ++v) {
+            const auto at = all.begin() + static_cast<ptrdiff_t>(v * stride);
+            positions.insert(positions.end(), at, at + 12);
+        }
+        return positions;
+    };
+    EXPECT_FALSE(sword(pair.direct).empty());
+    EXPECT_EQ(sword(pair.direct), sword(pair.stored));
+}
+
 /// Its coefficients are memory that goes while nobody is drawn (SuppleGroupDesc.keepUnseenFrames).
 TEST_F(Direct, GivesItsCoefficientsBack) {
     const ValidationGuard guard;
