@@ -6,6 +6,7 @@
 #include "shaders/fixed_vert.h"
 #include "shaders/fixed_vert_DIRECT.h"
 #include "shaders/fixed_vert_DIRECT_SUPPLE_PATCH_TEXELS.h"
+#include "shaders/supple_patch_layout.h"
 
 #include <algorithm>
 #include <bit>
@@ -91,6 +92,8 @@ FixedCharacters::FixedCharacters(Device& device, const Crowd& crowd, VkDescripto
         windows += kind.info.windowCount;
     DescriptorPool pool = must(DescriptorPool::create(device, 2 * windows)); // room for eight storage buffers each
     for (size_t k = 0; k < kKinds; ++k) {
+        if (direct_ && crowd.kinds()[k].direct.layout != SUPPLE_PATCH_LAYOUT)
+            fail("the shaders were compiled for another layout of patches than the library has");
         for (uint32_t w = 0; w < crowd.kinds()[k].info.windowCount; ++w) {
             sets_[k].push_back(must(pool.allocate(setLayout)));
             pool.write(sets_[k].back(), writesOf(device, crowd.kinds()[k], w));

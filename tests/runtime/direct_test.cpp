@@ -4,6 +4,7 @@
 #include "host/pipelines.h"
 #include "host/rendering.h"
 #include "shaders/direct_comp.h"
+#include "shaders/direct_comp_DERIVATIVES.h"
 #include "shaders/direct_comp_SUPPLE_PATCH_TEXELS.h"
 #include "shaders/direct_vert.h"
 #include "shaders/direct_vert_SUPPLE_PATCH_TEXELS.h"
@@ -87,12 +88,14 @@ private:
 class Evaluator {
 public:
     Evaluator(host::Device& device, bool texels)
+        : Evaluator(device, texels,
+                    texels ? std::span<const uint32_t>(direct_comp_SUPPLE_PATCH_TEXELS)
+                           : std::span<const uint32_t>(direct_comp)) {}
+    Evaluator(host::Device& device, bool texels, std::span<const uint32_t> shader)
         : device_(device), set_(device, VK_SHADER_STAGE_COMPUTE_BIT, texels),
           layout_(
               *host::createPipelineLayout(device, {set_.layout()}, sizeof(DirectPush), VK_SHADER_STAGE_COMPUTE_BIT)),
-          pipeline_(*host::createComputePipeline(device, layout_,
-                                                 texels ? std::span<const uint32_t>(direct_comp_SUPPLE_PATCH_TEXELS)
-                                                        : std::span<const uint32_t>(direct_comp))) {}
+          pipeline_(*host::createComputePipeline(device, layout_, shader)) {}
 
     /// Six floats a vertex, as SUPPLE_VERTEX_24 has them, of instances from a slot on: `first` as if they were a
     /// window.
@@ -316,6 +319,43 @@ TEST_F(Direct, KeepsItsBitsWhenItIsMadeAnewAndWhenItFollows) {
     Compared followed;
     followed.add(pair.stored, evaluator.evaluate(following, 2), 1);
     followed.expectSame("a follower");
+}
+
+/// Against differences of positions: along the first side of quads, and across from it inside of bicubic ones.
+TEST_F(Direct, HasTheDerivativesOfItsParameters) {
+    constexpr uint32_t kRate = 32, kSide = kRate + 1;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    Evaluator positions(own.device(), false), derivatives(own.device(), false, direct_comp_DERIVATIVES);
+    std::set<uint32_t> classes;
+    const Subject all[] = {{"jack", SUPPLE_SCHEME_PM, perturbed(jack(), 0.02f, 4)},
+                           {"jack, p-rep", SUPPLE_SCHEME_PREP, perturbed(jack(), 0.02f, 4)},
+                           {"torus", SUPPLE_SCHEME_PM, perturbed(torus(8, 5), 0.02f, 5)}};
+    for (const Subject& subject : all) {
+        SuppleGroupDesc desc{};
+        desc.asset = own.createAsset(subject.cage);
+        desc.capacity = 1;
+        desc.scheme = subject.scheme;
+        desc.rate = kRate;
+        Crowd direct(own, Pair::withFlag(desc));
+        ASSERT_TRUE(direct.valid());
+        direct.pose(direct.spawn(), SUPPLE_BIND_POSE, 0.0, glm::mat4(1.0f));
+        own.run(direct.group());
+        const std::vector<glm::vec3> p = positions.evaluate(direct, 1), d = derivatives.evaluate(direct, 1);
+        const SuppleDirectOutput from = directOutput(direct);
+        for (uint32_t r = 0; r < from.rangeCount; ++r) {
+            classes.insert(from.ranges[r].patchClass);
+            const auto at = [&](uint32_t i, uint32_t j) { return 2 * (from.ranges[r].firstVertex + j * kSide + i); };
+            const auto slope = [&](size_t a, size_t b) { return 0.5f * kRate * (p[b] - p[a]); };
+            for (uint32_t i = 1; i < kRate; ++i) {
+                EXPECT_LT(glm::distance(d[at(i, 0)], slope(at(i - 1, 0), at(i + 1, 0))), 0.02f) << r << " " << i;
+            }
+            for (uint32_t j = 1; j < kRate && from.ranges[r].patchClass <= SUPPLE_PATCH_PERTURBED; ++j) {
+                EXPECT_LT(glm::distance(d[at(5, j) + 1], slope(at(5, j - 1), at(5, j + 1))), 0.02f) << r << " " << j;
+                EXPECT_LT(glm::distance(d[at(5, j)], slope(at(4, j), at(6, j))), 0.02f) << r << " " << j;
+            }
+        }
+    }
+    EXPECT_EQ(classes, (std::set<uint32_t>{SUPPLE_PATCH_REGULAR, SUPPLE_PATCH_PERTURBED, SUPPLE_PATCH_P4}));
 }
 
 /// A sword of polygons in the hand of a P_m character.
