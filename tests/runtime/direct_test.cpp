@@ -11,6 +11,7 @@
 #include "shaders/prop_frag.h"
 #include "shaders/ranges_vert.h"
 #include "shaders/supple_patch_layout.h"
+#include "surface/schemes.h"
 #include "tests/support/crowd.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_zoo.h"
@@ -175,6 +176,25 @@ struct Subject {
     SuppleCornerRule corners = SUPPLE_CORNERS_SHARP;
 };
 
+/// Corners of patches from a record on whose tangents are parallel: their normals are taken a step inside.
+uint32_t singularCorners(const std::vector<uint32_t>& words, uint32_t firstRecord, uint32_t patchClass,
+                         uint32_t patches) {
+    uint32_t corners = 0;
+    for (uint32_t p = 0; p < patches && patchClass >= SUPPLE_PATCH_P3 && patchClass <= SUPPLE_PATCH_P5; ++p) {
+        const uint32_t record = firstRecord + p * SUPPLE_PM_RECORD_ELEMENTS(patchClass);
+        corners +=
+            static_cast<uint32_t>(std::popcount(SUPPLE_SINGULAR(words[4 * record + SUPPLE_PM_INNER_WORD(patchClass)])));
+    }
+    return corners;
+}
+bool isSingular(const cage::Cage& cage) {
+    const Result<surface::Tables> tables = surface::buildTables({.scheme = surface::SchemeId::pm}, cage);
+    return tables && std::ranges::any_of(tables->ranges, [&](const surface::PatchRange& range) {
+               return singularCorners(tables->words, range.section.table, static_cast<uint32_t>(range.patchClass),
+                                      range.section.count) > 0;
+           });
+}
+
 std::vector<Subject> subjects() {
     std::vector<Subject> all{
         {"pentagons round a fan", SUPPLE_SCHEME_PM, perturbed(fanOverPentagons(5), 0.02f, 1)},
@@ -183,9 +203,11 @@ std::vector<Subject> subjects() {
         {"jack, p-rep", SUPPLE_SCHEME_PREP, perturbed(jack(), 0.02f, 4)},
         {"grid, p-rep", SUPPLE_SCHEME_PREP, perturbed(grid(4, 3), 0.02f, 5), SUPPLE_CORNERS_SMOOTH},
     };
-    size_t creased = 0; // corners whose tangents are parallel among them
+    size_t creased = 0, singular = 0;
     for (const PmCage& from : pmZoo()) {
-        if ((from.variant == PmVariant::creased || from.variant == PmVariant::alphas) && creased++ % 12 == 0) {
+        const bool isCreased = from.variant == PmVariant::creased || from.variant == PmVariant::alphas;
+        if ((isCreased && creased++ % 12 == 0) || (isCreased && singular < 2 && isSingular(from.cage))) {
+            singular += isSingular(from.cage) ? 1 : 0;
             all.push_back({from.name, SUPPLE_SCHEME_PM, from.cage});
         }
     }
@@ -229,6 +251,7 @@ TEST_P(DirectBits, AreThoseOfStoredVertices) {
     ASSERT_TRUE(own.valid());
     Evaluator texels(own.device(), true), buffers(own.device(), false);
     std::set<uint32_t> classes;
+    uint32_t singular = 0, cornerNormals = 0;
     Compared compared;
     for (const Subject& subject : subjects()) {
         SupplePrepOptions prep{};
@@ -256,10 +279,15 @@ TEST_P(DirectBits, AreThoseOfStoredVertices) {
             compared.largestTurn = std::max(compared.largestTurn, here.largestTurn);
         }
         const SuppleDirectOutput output = directOutput(pair.direct);
-        for (uint32_t r = 0; r < output.rangeCount; ++r) {
-            classes.insert(output.ranges[r].patchClass);
+        const std::vector<uint32_t> words = as<uint32_t>(pair.direct.read(output.tables));
+        for (const SupplePatchRange& range : std::span(output.ranges, output.rangeCount)) {
+            classes.insert(range.patchClass);
+            singular += singularCorners(words, range.firstRecord, range.patchClass, range.patchCount);
+            cornerNormals += range.patchClass == SUPPLE_PATCH_REGULAR && range.recordElements == 3 ? 1 : 0;
         }
     }
+    EXPECT_GT(singular, 0u) << "corners whose tangents are parallel";
+    EXPECT_GT(cornerNormals, 0u);
     compared.expectSame("all classes");
     EXPECT_EQ(classes, (std::set<uint32_t>{SUPPLE_PATCH_REGULAR, SUPPLE_PATCH_PERTURBED, SUPPLE_PATCH_POLAR,
                                            SUPPLE_PATCH_P3, SUPPLE_PATCH_P4, SUPPLE_PATCH_P5}));
