@@ -30,6 +30,7 @@ install(FILES
     ${supple_SOURCE_DIR}/runtime/include/supple/supple.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple.hpp
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_character.h
+    ${supple_SOURCE_DIR}/runtime/include/supple/supple_direct.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_playback.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_points.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_rays.h

@@ -220,6 +220,19 @@ Result<VkSampler> createTextureSampler(Device& device) {
                                       .maxLod = VK_LOD_CLAMP_NONE});
 }
 
+Result<VkBufferView> createTexels(Device& device, const SuppleBufferRange& range, VkFormat format) {
+    const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                      .buffer = range.buffer,
+                                      .format = format,
+                                      .offset = range.offset,
+                                      .range = range.size};
+    VkBufferView view = VK_NULL_HANDLE;
+    if (const VkResult result = vkCreateBufferView(device.handle(), &info, nullptr, &view); result != VK_SUCCESS)
+        return vulkanError(result, "vkCreateBufferView");
+    device.atEnd([handle = device.handle(), view] { vkDestroyBufferView(handle, view, nullptr); });
+    return view;
+}
+
 Write uniformBuffer(uint32_t binding, const Buffer& buffer) {
     return {binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VkDescriptorBufferInfo{buffer.handle(), 0, buffer.size()}};
 }
@@ -230,6 +243,10 @@ Write storageBuffer(uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDe
 
 Write storageBuffer(uint32_t binding, const SuppleBufferRange& view) {
     return storageBuffer(binding, view.buffer, view.offset, view.size);
+}
+
+Write texels(uint32_t binding, VkBufferView view) {
+    return {binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, view};
 }
 
 Write sampledImage(uint32_t binding, const Image& image, VkSampler sampler, VkImageLayout layout) {
@@ -253,10 +270,11 @@ Result<DescriptorPool> DescriptorPool::create(Device& device, uint32_t maxSets) 
                                           {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * maxSets},
                                           {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, maxSets},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, maxSets},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 2 * maxSets},
                                           {VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, maxSets}};
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = maxSets,
-                                          .poolSizeCount = device.tracesRays() ? 6u : 5u, // the last needs it
+                                          .poolSizeCount = device.tracesRays() ? 7u : 6u, // the last needs it
                                           .pPoolSizes = sizes};
     if (const VkResult result = vkCreateDescriptorPool(pool.device_, &info, nullptr, &pool.pool_); result != VK_SUCCESS)
         return vulkanError(result, "vkCreateDescriptorPool");
@@ -293,7 +311,8 @@ void DescriptorPool::write(VkDescriptorSet set, std::span<const Write> writes) {
                         .descriptorCount = 1,
                         .descriptorType = write.type,
                         .pImageInfo = std::get_if<VkDescriptorImageInfo>(&write.what),
-                        .pBufferInfo = std::get_if<VkDescriptorBufferInfo>(&write.what)});
+                        .pBufferInfo = std::get_if<VkDescriptorBufferInfo>(&write.what),
+                        .pTexelBufferView = std::get_if<VkBufferView>(&write.what)});
     }
     vkUpdateDescriptorSets(device_, static_cast<uint32_t>(list.size()), list.data(), 0, nullptr);
 }

@@ -64,17 +64,21 @@ struct GraphicsDesc {
 /// Linear, with mip levels; repeats.
 [[nodiscard]] Result<VkSampler> createTextureSampler(Device& device);
 
+/// Texels of a part of a buffer, which the device must be able to read so many of.
+[[nodiscard]] Result<VkBufferView> createTexels(Device& device, const SuppleBufferRange& range, VkFormat format);
+
 /// What a descriptor points at.
 struct Write {
     uint32_t binding;
     VkDescriptorType type;
-    std::variant<VkDescriptorBufferInfo, VkDescriptorImageInfo, VkAccelerationStructureKHR> what;
+    std::variant<VkDescriptorBufferInfo, VkDescriptorImageInfo, VkAccelerationStructureKHR, VkBufferView> what;
     uint32_t element = 0; ///< of an array
 };
 
 [[nodiscard]] Write uniformBuffer(uint32_t binding, const Buffer& buffer);
 [[nodiscard]] Write storageBuffer(uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size);
 [[nodiscard]] Write storageBuffer(uint32_t binding, const SuppleBufferRange& view);
+[[nodiscard]] Write texels(uint32_t binding, VkBufferView view); ///< of createTexels()
 [[nodiscard]] Write sampledImage(uint32_t binding, const Image& image, VkSampler sampler,
                                  VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 [[nodiscard]] Write storageImage(uint32_t binding, const Image& image);
@@ -83,7 +87,7 @@ struct Write {
 /// Sets are allocated once and may be written again while no frame that uses them is in flight.
 class DescriptorPool {
 public:
-    /// Room for four storage buffers and four textures a set, and for one of each other type.
+    /// Room for four storage buffers and four textures a set, for two texel buffers, and for one of each other type.
     [[nodiscard]] static Result<DescriptorPool> create(Device& device, uint32_t maxSets);
     [[nodiscard]] Result<VkDescriptorSet> allocate(VkDescriptorSetLayout layout);
     void write(VkDescriptorSet set, std::initializer_list<Write> writes) {

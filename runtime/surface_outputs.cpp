@@ -9,6 +9,9 @@ namespace supple::runtime {
 Result<SurfaceOutputs> surfaceOutputs(const OutputWish& wish, const surface::Tables& tables, const char* scheme) {
     SurfaceOutputs outputs;
     outputs.streams = wish.viewFlags ? StreamSet::ofView(*wish.viewFlags) : StreamSet::ofGroup(wish.groupFlags);
+    if ((wish.groupFlags & SUPPLE_GROUP_DIRECT) != 0) {
+        outputs.streams.remove(Stream::vertices);
+    }
     const bool hasCoefficients =
         !tables.ranges.empty() &&
         std::all_of(tables.ranges.begin(), tables.ranges.end(),
@@ -40,6 +43,7 @@ uint32_t beginRate(uint32_t asked, const surface::Tables& tables, surface::RateR
 surface::ProgramOptions programOptionsOf(const OutputWish& wish, const SurfaceOutputs& outputs, uint32_t rate) {
     surface::ProgramOptions options;
     options.vertexFormat = static_cast<uint32_t>(wish.format);
+    options.vertices = outputs.streams.has(Stream::vertices);
     options.motion = outputs.streams.has(Stream::previousPositions);
     options.patches = outputs.patches;
     options.tangents = outputs.streams.has(Stream::tangents);

@@ -73,8 +73,10 @@ surface::SchemeId schemeIdOf(const SuppleGroupDesc& group, SuppleScheme scheme) 
 }
 
 uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId scheme, bool schemeChosen) {
-    const bool lacksMesh = schemeChosen && !surface::schemeOf(scheme).hasIndexedMesh;
-    return lacksMesh ? groupFlags & ~uint32_t{SUPPLE_GROUP_INDEXED_MESH} : groupFlags;
+    const surface::Scheme& row = surface::schemeOf(scheme);
+    const uint32_t lacksMesh = schemeChosen && !row.hasIndexedMesh ? SUPPLE_GROUP_INDEXED_MESH : 0;
+    const uint32_t lacksDirect = row.hasDirect ? 0 : SUPPLE_GROUP_DIRECT;
+    return groupFlags & ~(lacksMesh | lacksDirect);
 }
 
 std::vector<surface::Recipe> ratesBelow(const surface::Recipe& finest, const surface::Tables& tables) {
@@ -98,7 +100,9 @@ Result<SurfaceRecipe> surfaceRecipe(const SurfaceWish& wish) {
     recipe.lod = wish.viewFlags.has_value() && scheme.hasLevels;
     recipe.rate = scheme.tableRate(askedRate(wish.group), recipe.lod);
     recipe.wide = wish.mapping.wide && scheme.ofMapping;
-    recipe.fanRecords = wish.mapping.fanRecords && scheme.hasFanRecords && !recipe.lod && !recipe.indexedMesh;
+    const bool direct = (wish.group.flags & SUPPLE_GROUP_DIRECT) != 0; // hosts' shaders read coefficients
+    recipe.fanRecords =
+        wish.mapping.fanRecords && scheme.hasFanRecords && !recipe.lod && !recipe.indexedMesh && !direct;
     recipe.blend = wish.group.blend != nullptr ? blendOptions(*wish.group.blend) : recipe.blend;
     recipe.prep = wish.group.prep != nullptr ? prepOptions(*wish.group.prep) : recipe.prep;
     if (const Status chosen = chooseUvs(wish, out); !chosen) {

@@ -36,7 +36,8 @@ struct SurfaceWish {
     return group.rate == 0 ? 8 : group.rate;
 }
 
-/// SuppleGroupFlags of a group, without those that a scheme which Supple has chosen lacks.
+/// SuppleGroupFlags of a group, without those that a scheme goes without: DIRECT, and what one lacks that Supple has
+/// chosen.
 [[nodiscard]] uint32_t surfaceFlags(uint32_t groupFlags, surface::SchemeId scheme, bool schemeChosen);
 
 struct SurfaceRecipe {

@@ -34,6 +34,19 @@ TessellationDesc describeCage(const TessellationDesc& group) {
     return desc;
 }
 
+/// Whether some surface is evaluated while it is drawn, if the group asks for that.
+Status checkDirect(const TessellationDesc& group, const std::vector<TessellationDesc>& surfaces) {
+    const auto isDirect = [](const TessellationDesc& desc) { return (desc.group.flags & SUPPLE_GROUP_DIRECT) != 0; };
+    if (!isDirect(group) || std::any_of(surfaces.begin(), surfaces.end(), isDirect)) {
+        return success();
+    }
+    const surface::SchemeId first = schemeIdOf(surfaces.front().group, surfaces.front().group.scheme);
+    return Error{ErrorCode::argument, group.asset->character.name +
+                                          ": SUPPLE_GROUP_DIRECT: patches of P_m and p-rep can be evaluated while they "
+                                          "are drawn, those of " +
+                                          surface::schemeOf(first).name + " cannot"};
+}
+
 Result<std::vector<TessellationDesc>> describeAll(const TessellationDesc& group) {
     std::vector<TessellationDesc> all;
     if (group.group.scheme == SUPPLE_SCHEME_CAGE) {
@@ -51,6 +64,9 @@ Result<std::vector<TessellationDesc>> describeAll(const TessellationDesc& group)
         }
         desc->surface = static_cast<uint32_t>(all.size());
         all.push_back(std::move(*desc));
+    }
+    if (const Status direct = checkDirect(group, all); !direct) {
+        return direct.error();
     }
     return all;
 }

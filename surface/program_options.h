@@ -10,7 +10,8 @@ namespace supple::surface {
 /// What a group needs from the passes. It does not change after the group is created.
 struct ProgramOptions {
     uint32_t vertexFormat = shared::kVertex16;
-    bool motion = false; ///< also writes the positions of the frame before
+    bool vertices = true; ///< else the host's shaders evaluate patches, and none is written
+    bool motion = false;  ///< also writes the positions of the frame before
     bool patches = false;
     bool tangents = false; ///< also writes tangents, from the directions that `attributes` writes
     bool attributes = false;

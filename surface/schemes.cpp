@@ -20,22 +20,22 @@ namespace {
 
 // Margins are a little above what was found (tests/surface/bounds_test.cpp), for rounding and for rarer valences.
 constexpr Scheme kSchemes[] = {
-    {SchemeId::prep, RateRule::any, "p-rep", &prep::build, "", true, true, false, true, kAllUvModes,
+    {SchemeId::prep, RateRule::any, "p-rep", &prep::build, "", true, true, false, true, true, kAllUvModes,
      [](const cage::Cage&) { return 0.04f; }, // 0.0276, at valence 59
      &prep::check},
-    {SchemeId::pm, RateRule::any, "P_m", &pm::build, "", true, true, false, false, kAllUvModes, &pm::boundsMargin,
+    {SchemeId::pm, RateRule::any, "P_m", &pm::build, "", true, true, false, false, true, kAllUvModes, &pm::boundsMargin,
      &pm::check},
     // Points of the limit are means of the cage's.
     {SchemeId::fragments, RateRule::doubling, "fragments", &fragments::build, "2, 4, 8..", false, false, false, false,
-     kAllUvModes, [](const cage::Cage&) { return 0.001f; }, &fragments::check},
-    {SchemeId::loop, RateRule::upTo, "Loop", &loop::build, "", true, true, true, false, kAllUvModes,
+     false, kAllUvModes, [](const cage::Cage&) { return 0.001f; }, &fragments::check},
+    {SchemeId::loop, RateRule::upTo, "Loop", &loop::build, "", true, true, true, false, false, kAllUvModes,
      [](const cage::Cage&) { return 0.001f; }, &loop::check},
-    {SchemeId::blend, RateRule::one, "blend", &blend::build, "an even number of", true, false, false, false,
+    {SchemeId::blend, RateRule::one, "blend", &blend::build, "an even number of", true, false, false, false, false,
      kAllUvModes & ~uvModeBit(cage::UvMode::boundaries), &blend::boundsMargin, &blend::check},
     {SchemeId::catmullClark, RateRule::upTo, "Catmull-Clark", &catmull_clark::build, "an even number of", true, true,
-     true, false, kAllUvModes, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check},
+     true, false, false, kAllUvModes, [](const cage::Cage&) { return 0.001f; }, &catmull_clark::check},
     // Its vertices are the cage's.
-    {SchemeId::polygons, RateRule::none, "polygons", &polygons::build, "", false, true, false, false, kLinearUvs,
+    {SchemeId::polygons, RateRule::none, "polygons", &polygons::build, "", false, true, false, false, false, kLinearUvs,
      [](const cage::Cage&) { return 0.0f; }, &polygons::check},
 };
 
@@ -45,6 +45,7 @@ constexpr Scheme kLoopFragments = {SchemeId::loopFragments,
                                    "Loop in fragments",
                                    &fragments::build,
                                    "2, 4, 8..",
+                                   false,
                                    false,
                                    false,
                                    false,

@@ -42,6 +42,7 @@ struct Scheme {
     bool hasIndexedMesh = false;   ///< patches can share the samples on their borders, or the scheme is a mesh
     bool ofMapping = false;        ///< its tables differ by mapping (Recipe::wide)
     bool hasFanRecords = false;    ///< see Recipe::fanRecords
+    bool hasDirect = false;        ///< hosts' shaders can evaluate its patches (surface/direct_tables.h)
     uint32_t uvModes = kLinearUvs; ///< how it interpolates texture coordinates: a bit per cage::UvMode
     /// How far the surface can reach beyond the box of its cage, as a fraction of the box's size. This is the largest
     /// sum of the negative weights of a sample.

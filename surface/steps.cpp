@@ -315,7 +315,10 @@ gpu::Kernel ProgramBuilder::kernel(SetKind sets, Kernel which, std::initializer_
 }
 
 std::vector<ProgramBuilder::VertexPass> ProgramBuilder::vertexPasses() {
-    std::vector<VertexPass> passes{{options.vertexFormat, &program.evaluate}};
+    std::vector<VertexPass> passes;
+    if (options.vertices) {
+        passes.push_back({options.vertexFormat, &program.evaluate});
+    }
     if (options.motion) {
         passes.push_back({kVertexPosition, &program.motion});
     }

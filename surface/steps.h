@@ -45,7 +45,7 @@ public:
     /// One lane per element.
     [[nodiscard]] DispatchSize lanes(uint32_t elements) const { return {elements, device.mapping.localSize}; }
 
-    /// The passes that write surface vertices: evaluate, and motion if it is needed.
+    /// The passes that write surface vertices: evaluate, and motion, if they are needed.
     struct VertexPass {
         uint32_t format = shared::kVertex16;
         Steps* steps = nullptr;

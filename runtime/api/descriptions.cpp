@@ -28,7 +28,7 @@ constexpr uint32_t kGroupFlags = runtime::streamFlags(&runtime::StreamRow::group
                                  SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS |
                                  SUPPLE_GROUP_WINDOWS | SUPPLE_GROUP_POSE_UNSEEN | SUPPLE_GROUP_MODIFIERS |
                                  SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES | SUPPLE_GROUP_SPRINGS |
-                                 SUPPLE_GROUP_SOFT | SUPPLE_GROUP_RAY_TRACING;
+                                 SUPPLE_GROUP_SOFT | SUPPLE_GROUP_RAY_TRACING | SUPPLE_GROUP_DIRECT;
 constexpr uint32_t kFlagsInViews = SUPPLE_GROUP_ONE_LEVEL | SUPPLE_GROUP_BOUNDS | SUPPLE_GROUP_POSE_UNSEEN |
                                    SUPPLE_GROUP_MODIFIERS | SUPPLE_GROUP_TRANSITIONS | SUPPLE_GROUP_UPDATE_RATES |
                                    SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT;
@@ -159,6 +159,23 @@ std::optional<Error> faultOfPartSchemes(const SuppleGroupDesc& desc) {
     return std::nullopt;
 }
 
+/// Null if nothing is asked of surface vertices that the group does not store.
+std::optional<Error> faultOfDirect(const SuppleGroupDesc& desc) {
+    constexpr uint32_t kOfVertices =
+        SUPPLE_GROUP_MOTION | SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_INDEXED_MESH | SUPPLE_GROUP_RAY_TRACING;
+    if ((desc.flags & SUPPLE_GROUP_DIRECT) == 0) {
+        return std::nullopt;
+    }
+    if (desc.scheme == SUPPLE_SCHEME_CAGE) {
+        return Error{ErrorCode::argument, "SUPPLE_GROUP_DIRECT: a cage has no patches"};
+    }
+    if ((desc.flags & kOfVertices) != 0) {
+        return Error{ErrorCode::argument, "SUPPLE_GROUP_DIRECT goes with neither MOTION, TANGENTS, INDEXED_MESH nor "
+                                          "RAY_TRACING, which need stored vertices"};
+    }
+    return std::nullopt;
+}
+
 /// Null if the flags go with each other and with the rest.
 std::optional<Error> faultOfFlags(const SuppleGroupDesc& desc) {
     const auto has = [&](uint32_t flag) { return (desc.flags & flag) != 0; };
@@ -216,7 +233,7 @@ std::optional<Error> faultOfFlags(const SuppleGroupDesc& desc) {
     if (has(SUPPLE_GROUP_RAY_TRACING) && desc.scheme == SUPPLE_SCHEME_CAGE) {
         return Error{ErrorCode::argument, "SUPPLE_GROUP_RAY_TRACING: a cage has no triangles of a surface"};
     }
-    return std::nullopt;
+    return faultOfDirect(desc);
 }
 
 /// Null if it says whose instances they are, and how many.

@@ -1,4 +1,4 @@
-// supple.h, output; supple_rays.h.
+// supple.h, output; supple_rays.h; supple_direct.h.
 #include "runtime/api/entry.h"
 #include "runtime/api/patches.h"
 
@@ -40,6 +40,18 @@ SuppleResult suppleGetGridOutput(SuppleContext handle, SuppleGroup group, uint32
         }
         group.noteOutputsAsked();
         return describe(context, kHere, out, [&](SuppleGridOutput& output) { found.fillGrid(output); });
+    });
+}
+
+SuppleResult suppleGetDirectOutput(SuppleContext handle, SuppleGroup group, uint32_t surface, SuppleDirectOutput* out) {
+    constexpr const char* kHere = "suppleGetDirectOutput";
+    return withSurface(handle, group, surface, kHere, [&](Context& context, Group& group, const Tessellation& found) {
+        if (found.kind() != SUPPLE_TESSELLATION_DIRECT) {
+            return refuse(context, group, ErrorCode::argument, kHere,
+                          "the surface is not evaluated while it is drawn (SUPPLE_GROUP_DIRECT)");
+        }
+        group.noteOutputsAsked();
+        return describe(context, kHere, out, [&](SuppleDirectOutput& output) { found.fillDirect(output); });
     });
 }
 

@@ -42,6 +42,7 @@ inline constexpr const char* kStructName = nullptr;
     X(SuppleSurfaceInfo)                                                                                               \
     X(SuppleVertexStreams)                                                                                             \
     X(SuppleRayGeometry)                                                                                               \
+    X(SuppleDirectOutput)                                                                                              \
     X(SuppleGridOutput)                                                                                                \
     X(SuppleRecordDesc)                                                                                                \
     X(SuppleBudget)                                                                                                    \

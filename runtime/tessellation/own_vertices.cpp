@@ -12,8 +12,7 @@ namespace supple::runtime {
 using namespace supple::shared;
 
 Status OwnVertices::setVertexCount(uint64_t vertices) {
-    Status fits = checkVertices(vertices);
-    if (!fits) {
+    if (const Status fits = checkVertices(vertices); built_.outputs.streams.has(Stream::vertices) && !fits) {
         return fits;
     }
     constexpr uint32_t kAttributeBytes = kStreams[static_cast<size_t>(Stream::attributes)].bytes;
@@ -125,6 +124,10 @@ void OwnVertices::bindOutput(const SurfaceSets::Which& which, SetContents& conte
     contents.buffer(kDirectionBinding,
                     directed ? streams_.buffer(Stream::directions) : memory_.pool(which.pool).buffer(), 0,
                     VK_WHOLE_SIZE);
+    bindStatics(which, contents);
+}
+
+void OwnVertices::bindStatics(const SurfaceSets::Which& which, SetContents& contents) const {
     for (const StreamRow& row : kStreams) {
         if (row.written == Written::static_) {
             const auto stream = static_cast<Stream>(&row - kStreams);

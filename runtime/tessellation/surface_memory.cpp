@@ -33,15 +33,15 @@ void SurfaceMemory::plan(const Desc& desc, gpu::BufferPlan& device) {
     desc_ = desc;
     constexpr VkBufferUsageFlags kScratch =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    constexpr VkBufferUsageFlags kPool =
+        kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT; // hosts may read it
     constexpr gpu::MemoryPurpose kCoefficients = gpu::MemoryPurpose::coefficients;
     const VkDeviceSize n = desc.capacity;
     const VkDeviceSize poolBytes = n * desc.poolStride * gpu::kVec4Bytes;
     pools_ = desc.leader != nullptr ? desc.leader->pools_ : desc.pools;
     if (ownsPools()) {
-        pools_[0] = device.add(
-            {"supple coefficient pool", poolBytes, kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
-        pools_[1] = device.add({"supple second coefficient pool", desc.motion ? poolBytes : 0,
-                                kScratch | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kCoefficients});
+        pools_[0] = device.add({"supple coefficient pool", poolBytes, kPool, kCoefficients});
+        pools_[1] = device.add({"supple second coefficient pool", desc.motion ? poolBytes : 0, kPool, kCoefficients});
     }
     patches_ = device.add({"supple patch coefficients",
                            desc.patches ? n * desc.patchCount * kPatchStride * gpu::kVec4Bytes : 0,

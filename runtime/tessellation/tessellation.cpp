@@ -19,6 +19,9 @@ Result<std::unique_ptr<Tessellation>> Tessellation::create(const TessellationDes
     if (desc.view != nullptr) {
         return row.hasLevels ? makeLevels(desc) : makeRates(desc);
     }
+    if ((desc.group.flags & SUPPLE_GROUP_DIRECT) != 0) {
+        return makeDirect(desc);
+    }
     const bool indexed = row.isMesh() || (desc.group.flags & SUPPLE_GROUP_INDEXED_MESH) != 0;
     return indexed ? makeIndexedMesh(desc) : makeFixedRate(desc);
 }

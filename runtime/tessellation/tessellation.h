@@ -2,6 +2,7 @@
 //
 //   none.cpp          the deformed cage alone
 //   fixed_rate.cpp    grids of samples, patch by patch, at one rate
+//   direct.cpp        grids without vertices: the host evaluates them while it draws
 //   indexed_mesh.cpp  one mesh an instance, which stores the samples on borders once
 //   levels.cpp        a view's vertices, at real-valued levels
 //   rates.cpp         groups of a view whose instances have one of several rates each (subdivision)
@@ -114,6 +115,7 @@ public:
     /// If isTraced().
     virtual void fillRays(SuppleRayGeometry& /*output*/) const {}
     virtual void fillLevels(SuppleLevelOutput& /*output*/) const {}
+    virtual void fillDirect(SuppleDirectOutput& /*output*/) const {}
     [[nodiscard]] const gpu::PlannedBuffer& patchCoefficients() const { return memory_.patches(); }
     /// Null if the index buffer is not its own.
     [[nodiscard]] virtual const SharedIndices* indices() const { return nullptr; }
@@ -258,6 +260,7 @@ template <class T>
 // The implementations, for Tessellation::create().
 [[nodiscard]] std::unique_ptr<Tessellation> makeNoTessellation(const TessellationDesc& desc);
 [[nodiscard]] Result<std::unique_ptr<Tessellation>> makeFixedRate(const TessellationDesc& desc);
+[[nodiscard]] Result<std::unique_ptr<Tessellation>> makeDirect(const TessellationDesc& desc);
 [[nodiscard]] Result<std::unique_ptr<Tessellation>> makeIndexedMesh(const TessellationDesc& desc);
 [[nodiscard]] Result<std::unique_ptr<Tessellation>> makeLevels(const TessellationDesc& desc);
 [[nodiscard]] Result<std::unique_ptr<Tessellation>> makeRates(const TessellationDesc& desc);

@@ -66,42 +66,65 @@ void findArcs(Kind& kind) {
 } // namespace
 
 Crowd::Crowd(Device& device, const CrowdOptions& options)
-    : context_(mustCreateContext(device, options.record)), budget_(options.budget), backFaces_(options.backFaces) {
-    const uint32_t count = options.count;
-    auto viewDesc = supple::sized<SuppleViewDesc>();
-    viewDesc.flags = SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;
-    viewDesc.flags |= options.occlusion ? SUPPLE_VIEW_OCCLUSION : 0;
-    viewDesc.flags |= options.backFaces ? SUPPLE_VIEW_BACK_FACES : 0;
-    viewDesc.maxVertices = budget_;
-    viewDesc.coefficientBytes = uint64_t{options.coefficients} << 20;
-    must(supple::View::create(context_, viewDesc, view_), "suppleCreateView");
+    : context_(mustCreateContext(device, options.record)), budget_(options.budget), fixedRate_(options.fixedRate),
+      backFaces_(options.backFaces), isDirect_(options.direct) {
+    if (hasLevels())
+        createView(options);
+    for (size_t k = 0; k < kKinds; ++k)
+        createKind(k, options);
+    createInstances(options);
+}
 
-    for (size_t k = 0; k < kKinds; ++k) {
-        Kind& kind = kinds_[k];
-        const std::vector<char> file = readGlb(options.files[k]);
-        const std::optional<std::vector<char>> walking = withArcs(file, "walk", kStride, arcs());
-        const std::vector<char>& bytes = walking ? *walking : file;
-        kind.walks = walking.has_value();
-        auto assetDesc = supple::sized<SuppleAssetDesc>();
-        assetDesc.name = options.files[k].c_str();
-        assetDesc.bytes = bytes.data();
-        assetDesc.byteCount = bytes.size();
-        must(supple::Asset::create(context_, assetDesc, kind.asset), "suppleCreateAsset");
-        if (kind.walks)
-            findArcs(kind);
+void Crowd::createView(const CrowdOptions& options) {
+    auto desc = supple::sized<SuppleViewDesc>();
+    desc.flags = SUPPLE_VIEW_ATTRIBUTES | SUPPLE_VIEW_CULL;
+    desc.flags |= options.occlusion ? SUPPLE_VIEW_OCCLUSION : 0;
+    desc.flags |= options.backFaces ? SUPPLE_VIEW_BACK_FACES : 0;
+    desc.maxVertices = budget_;
+    desc.coefficientBytes = uint64_t{options.coefficients} << 20;
+    must(supple::View::create(context_, desc, view_), "suppleCreateView");
+}
 
-        auto desc = supple::sized<SuppleGroupDesc>();
-        desc.asset = kind.asset.handle();
-        desc.capacity = count / kKinds + 1;
-        desc.scheme = kDescs[k].scheme;
+void Crowd::createKind(size_t number, const CrowdOptions& options) {
+    Kind& kind = kinds_[number];
+    const std::vector<char> file = readGlb(options.files[number]);
+    const std::optional<std::vector<char>> walking = withArcs(file, "walk", kStride, arcs());
+    const std::vector<char>& bytes = walking ? *walking : file;
+    kind.walks = walking.has_value();
+    auto assetDesc = supple::sized<SuppleAssetDesc>();
+    assetDesc.name = options.files[number].c_str();
+    assetDesc.bytes = bytes.data();
+    assetDesc.byteCount = bytes.size();
+    must(supple::Asset::create(context_, assetDesc, kind.asset), "suppleCreateAsset");
+    if (kind.walks)
+        findArcs(kind);
+
+    auto desc = supple::sized<SuppleGroupDesc>();
+    desc.asset = kind.asset.handle();
+    desc.capacity = options.count / kKinds + 1;
+    desc.scheme = kDescs[number].scheme;
+    desc.poseSource = SUPPLE_POSES_PLAYBACK;
+    if (hasLevels()) {
         desc.view = view_.handle();
-        desc.poseSource = SUPPLE_POSES_PLAYBACK;
-        must(supple::Group::create(context_, desc, kind.group), "suppleCreateGroup");
-        must(kind.group.info(kind.info), "suppleGetGroupInfo");
-        must(kind.group.vertexStreams(kind.streams), "suppleGetVertexStreams");
-        must(kind.group.levelOutput(kind.levels), "suppleGetLevelOutput");
+    } else {
+        desc.rate = fixedRate_;
+        desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_WINDOWS | (isDirect_ ? uint32_t{SUPPLE_GROUP_DIRECT} : 0u);
+        if (desc.scheme == SUPPLE_SCHEME_BLEND) // which is not evaluated while it is drawn
+            desc.scheme = SUPPLE_SCHEME_PM;
     }
+    must(supple::Group::create(context_, desc, kind.group), "suppleCreateGroup");
+    must(kind.group.info(kind.info), "suppleGetGroupInfo");
+    must(kind.group.vertexStreams(kind.streams), "suppleGetVertexStreams");
+    if (hasLevels())
+        must(kind.group.levelOutput(kind.levels), "suppleGetLevelOutput");
+    else
+        must(kind.group.gridOutput(kind.grid), "suppleGetGridOutput");
+    if (isDirect_)
+        must(kind.group.directOutput(kind.direct), "suppleGetDirectOutput");
+}
 
+void Crowd::createInstances(const CrowdOptions& options) {
+    const uint32_t count = options.count;
     // Circles all over a square, a few steps from each other.
     std::mt19937 random(7);
     const auto uniform = [&](float low, float high) {
@@ -155,6 +178,8 @@ void Crowd::beginFrame(uint64_t frame, uint64_t completed) const {
 void Crowd::update(double time, const Camera& camera) const {
     for (const Kind& kind : kinds_)
         must(kind.group.setTime(time), "suppleSetTime");
+    if (!hasLevels())
+        return;
     auto desc = supple::sized<SuppleCameraDesc>();
     std::memcpy(desc.position, &camera.eye, sizeof desc.position);
     desc.pixelsPerUnit = camera.pixelsPerUnit;
@@ -187,28 +212,52 @@ std::vector<std::string> Crowd::report() const {
     char text[160];
     std::snprintf(text, sizeof text, "%zu characters of %zu kinds", instances_.size(), kKinds);
     lines.emplace_back(text);
+    if (hasLevels())
+        reportView(lines);
+    reportMemory(lines);
+    reportPasses(lines);
+    return lines;
+}
+
+void Crowd::reportView(std::vector<std::string>& lines) const {
+    char text[160];
     SuppleViewStatistics drawn{};
-    if (view_.statistics(drawn) == SUPPLE_OK) {
-        std::snprintf(text, sizeof text, "%u seen, %u hidden behind others", drawn.drawnInstanceCount,
-                      drawn.occludedInstanceCount);
+    if (view_.statistics(drawn) != SUPPLE_OK)
+        return;
+    std::snprintf(text, sizeof text, "%u seen, %u hidden behind others", drawn.drawnInstanceCount,
+                  drawn.occludedInstanceCount);
+    lines.emplace_back(text);
+    if (backFaces_) {
+        std::snprintf(text, sizeof text, "%u patches left out for their backs", drawn.backFaceCount);
         lines.emplace_back(text);
-        if (backFaces_) {
-            std::snprintf(text, sizeof text, "%u patches left out for their backs", drawn.backFaceCount);
-            lines.emplace_back(text);
-        }
-        std::snprintf(text, sizeof text, "%u patches, %.2f M vertices of %.2f M%s", drawn.patchCount,
-                      1e-6 * drawn.vertexCount, 1e-6 * budget_, drawn.shortfall != 0 ? ", TOO FEW" : "");
-        lines.emplace_back(text);
-        std::snprintf(text, sizeof text, "levels scaled by %.3f", static_cast<double>(drawn.levelScales[0]));
-        lines.emplace_back(text);
-        if (drawn.coefficientBytes > 0) {
-            std::snprintf(text, sizeof text, "%.1f MiB of coefficients",
-                          static_cast<double>(drawn.coefficientBytes) / 0x100000);
-            lines.emplace_back(text);
-        }
     }
+    std::snprintf(text, sizeof text, "%u patches, %.2f M vertices of %.2f M%s", drawn.patchCount,
+                  1e-6 * drawn.vertexCount, 1e-6 * budget_, drawn.shortfall != 0 ? ", TOO FEW" : "");
+    lines.emplace_back(text);
+    std::snprintf(text, sizeof text, "levels scaled by %.3f", static_cast<double>(drawn.levelScales[0]));
+    lines.emplace_back(text);
+    if (drawn.coefficientBytes > 0) {
+        std::snprintf(text, sizeof text, "%.1f MiB of coefficients",
+                      static_cast<double>(drawn.coefficientBytes) / 0x100000);
+        lines.emplace_back(text);
+    }
+}
+
+void Crowd::reportMemory(std::vector<std::string>& lines) const {
+    SuppleMemoryUse use{};
+    if (context_.memory(use) != SUPPLE_OK)
+        return;
+    const auto mib = [](VkDeviceSize bytes) { return static_cast<double>(bytes) / 0x100000; };
+    char text[160];
+    std::snprintf(text, sizeof text, "%.1f MiB: vertices %.1f, coefficients %.1f",
+                  mib(use.deviceLocal + use.hostVisible), mib(use.vertices), mib(use.coefficients));
+    lines.emplace_back(text);
+}
+
+void Crowd::reportPasses(std::vector<std::string>& lines) const {
+    char text[160];
     if (context_.timings(timings_) != SUPPLE_OK)
-        return lines;
+        return;
     std::vector<std::pair<SupplePass, double>> passes; // in the order of the frame
     double total = 0.0;
     for (const SuppleTiming& timing : timings_) {
@@ -227,7 +276,6 @@ std::vector<std::string> Crowd::report() const {
     }
     std::snprintf(text, sizeof text, "%-10s %8.3f ms", "in all", total);
     lines.emplace_back(text);
-    return lines;
 }
 
 } // namespace crowd

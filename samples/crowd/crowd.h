@@ -22,8 +22,10 @@ struct Kind {
     supple::Group group;
     SuppleGroupInfo info{};
     SuppleVertexStreams streams{};
-    SuppleLevelOutput levels{};
-    uint32_t firstArc = 0; ///< clip of the first of its arcs
+    SuppleLevelOutput levels{};  ///< of a view
+    SuppleGridOutput grid{};     ///< at one rate
+    SuppleDirectOutput direct{}; ///< and evaluated while it is drawn
+    uint32_t firstArc = 0;       ///< clip of the first of its arcs
     double duration = 1.0;
     bool walks = true; ///< else its file has no clip to walk by
 };
@@ -38,6 +40,8 @@ struct Camera {
 struct CrowdOptions {
     std::array<std::string, kKinds> files; ///< GLB
     uint32_t count = 1000;
+    uint32_t fixedRate = 0;      ///< of all characters; 0: levels of detail
+    bool direct = false;         ///< at a fixed rate: evaluate while drawing
     uint32_t budget = 5'500'000; ///< surface vertices a frame
     uint32_t coefficients = 0;   ///< MiB that those share who are drawn; 0: there is memory for all
     bool wall = false;           ///< nobody walks where it stands
@@ -62,6 +66,8 @@ public:
     void addToGraph(Graph& graph, Resource buffers, const Resource* pyramid) const;
 
     [[nodiscard]] const std::array<Kind, kKinds>& kinds() const { return kinds_; }
+    [[nodiscard]] bool hasLevels() const { return fixedRate_ == 0; }
+    [[nodiscard]] bool isDirect() const { return isDirect_; }
     [[nodiscard]] size_t size() const { return instances_.size(); }
     /// Half the width of the square that they walk in.
     [[nodiscard]] float reach() const { return reach_; }
@@ -69,13 +75,20 @@ public:
     [[nodiscard]] std::vector<std::string> report() const;
 
 private:
+    void createView(const CrowdOptions& options);
+    void createKind(size_t number, const CrowdOptions& options);
+    void createInstances(const CrowdOptions& options);
+    void reportView(std::vector<std::string>& lines) const;
+    void reportMemory(std::vector<std::string>& lines) const;
+    void reportPasses(std::vector<std::string>& lines) const;
+
     supple::Context context_;
     supple::View view_;
     std::array<Kind, kKinds> kinds_;
     std::vector<supple::Instance> instances_;
     float reach_ = 1.0f;
-    uint32_t budget_ = 0;
-    bool backFaces_ = false;
+    uint32_t budget_ = 0, fixedRate_ = 0;
+    bool backFaces_ = false, isDirect_ = false;
     mutable std::vector<SuppleTiming> timings_;
 };
 

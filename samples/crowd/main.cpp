@@ -36,6 +36,10 @@ Options readOptions(int argc, char** argv) {
     app.add_flag("--occlusion", options.crowd.occlusion, "leave out who was hidden in the frame before");
     app.add_flag("--back-faces", options.crowd.backFaces, "leave out patches that face away");
     app.add_option("--count", options.crowd.count, "characters")->check(CLI::Range(3u, 100000u))->capture_default_str();
+    app.add_option("--fixed", options.crowd.fixedRate, "no levels of detail: all have this rate, in sight or not")
+        ->check(CLI::Range(1u, 64u));
+    app.add_flag("--direct", options.crowd.direct, "with --fixed: evaluate while drawing, without stored vertices")
+        ->needs("--fixed");
     app.add_option("--budget", options.crowd.budget, "surface vertices a frame")
         ->check(CLI::Range(1024u, SUPPLE_MAX_VIEW_VERTICES))
         ->capture_default_str();
@@ -46,6 +50,8 @@ Options readOptions(int argc, char** argv) {
     app.add_option("characters", options.crowd.files, "three GLB files, the second all of quads")
         ->capture_default_str();
     app.callback([&] {
+        if (options.crowd.fixedRate != 0 && (options.levels || options.crowd.occlusion || options.crowd.backFaces))
+            throw CLI::ValidationError("--fixed", "does not go with --levels, --occlusion and --back-faces");
         if (options.frames == 0 && (options.offscreen || !options.screenshot.empty()))
             throw CLI::RequiredError("--frames");
     });

@@ -2,8 +2,6 @@
 
 #include "host/must.h"
 #include "host/rendering.h"
-#include "shaders/character_frag.h"
-#include "shaders/character_vert.h"
 #include "shaders/ground_frag.h"
 #include "shaders/ground_vert.h"
 #include "shaders/text_frag.h"
@@ -21,41 +19,22 @@ namespace crowd {
 
 namespace {
 
-constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_UNORM;
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr uint32_t kSunMapSize = 4096;
 constexpr float kTextSize = 2.0f; ///< pixels a unit of stb_easy_font
 constexpr uint32_t kMaxTextBytes = 1u << 18;
 const glm::vec3 kSunDirection = glm::normalize(glm::vec3(-0.55f, 0.62f, 0.36f));
 constexpr VkClearValue kFar{.depthStencil = {1.0f, 0}};
 
-struct CharacterPush {
-    uint32_t firstDraw; ///< of the call, among ViewDraws::drawn()
-    uint32_t paint;
-    uint32_t sun;
-};
-
-constexpr uint32_t kPushBytes = sizeof(glm::vec4); ///< the wall's, which are more
+constexpr uint32_t kPushBytes = sizeof(glm::vec4); ///< the wall's
 
 struct TextCorner { // of stb_easy_font
     float x, y, z;
     uint32_t color;
 };
 
-/// All characters have one look: one bin, so one call.
-ViewDraws drawsOf(Device& device, const Crowd& crowd) {
-    std::array<SuppleLevelOutput, kKinds> surfaces{};
-    for (size_t k = 0; k < kKinds; ++k)
-        surfaces[k] = crowd.kinds()[k].levels;
-    return must(ViewDraws::create(device, surfaces, 1, [](uint32_t, const SuppleLevelDraw&) { return 0u; }));
-}
-
 } // namespace
 
-Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid)
-    : crowd_(crowd), draws_(drawsOf(device, crowd)), wall_(wall) {
-    if (!device.indexesBuffers())
-        fail("the device lacks arrays of buffers that a draw chooses from", 3);
+Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid) : crowd_(crowd), wall_(wall) {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     sunMap_ =
@@ -66,7 +45,6 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
     sunMapUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
     graph.setImage(sunMapUse_, sunMap_.handle());
     pictureUse_ = graph.addImage();
-    drawsUse_ = graph.addBuffers();
     depthUse_ = graph.addImage(VK_IMAGE_ASPECT_DEPTH_BIT);
     if (pyramid) {
         pyramid_ = std::make_unique<DepthPyramid>(device);
@@ -76,20 +54,11 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
     const VkDescriptorSetLayout sceneLayout =
         must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
                                       {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}}));
-    // The bindings of shaders/supple_surface.glsl at levels of detail: vertices, attributes, buckets, patches, which
-    // are the view's. Then the draws, and the user data of every kind.
-    const VkDescriptorSetLayout crowdLayout =
-        must(createSetLayout(device, {{1, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                      {3, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                      {4, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                      {5, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                      {6, kStorage, VK_SHADER_STAGE_VERTEX_BIT},
-                                      {7, kStorage, VK_SHADER_STAGE_VERTEX_BIT, kKinds}}));
     const VkDescriptorSetLayout textLayout = must(createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
-    layout_ = must(createPipelineLayout(device, {sceneLayout, crowdLayout}, kPushBytes, VK_SHADER_STAGE_VERTEX_BIT));
+    layout_ = must(createPipelineLayout(device, {sceneLayout}, kPushBytes, VK_SHADER_STAGE_VERTEX_BIT));
     textLayout_ = must(createPipelineLayout(device, {textLayout}, sizeof(glm::vec2), VK_SHADER_STAGE_VERTEX_BIT));
 
-    DescriptorPool pool = must(DescriptorPool::create(device, 2 * kFramesInFlight + 2));
+    DescriptorPool pool = must(DescriptorPool::create(device, 2 * kFramesInFlight));
     const VkSampler compare = must(createSampler(device, VK_FILTER_LINEAR, true));
     for (uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
         uniforms_[slot] =
@@ -100,26 +69,9 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
         textSets_[slot] = must(pool.allocate(textLayout));
         pool.write(textSets_[slot], {storageBuffer(0, text_[slot].handle(), 0, kMaxTextBytes)});
     }
-    const SuppleVertexStreams& streams = crowd.kinds().front().streams;
-    std::vector<Write> writes{storageBuffer(1, streams.vertices), storageBuffer(3, streams.attributes),
-                              storageBuffer(4, draws_.buckets()), storageBuffer(5, draws_.patches()),
-                              storageBuffer(6, draws_.drawn().handle(), 0, VK_WHOLE_SIZE)};
-    for (uint32_t k = 0; k < kKinds; ++k) {
-        writes.push_back(storageBuffer(7, crowd.kinds()[k].info.userData));
-        writes.back().element = k;
-    }
-    crowdSet_ = must(pool.allocate(crowdLayout));
-    pool.write(crowdSet_, writes);
-
-    sunPipeline_ = must(createGraphicsPipeline(device, {.layout = layout_,
-                                                        .vertexShader = character_vert,
-                                                        .depth = kDepthFormat,
-                                                        .depthBias = 1.0f,
-                                                        .depthBiasSlope = 1.5f}));
+    characters_ = crowd.hasLevels() ? makeLevelCharacters(device, graph, crowd, sceneLayout)
+                                    : makeFixedCharacters(device, crowd, sceneLayout);
     GraphicsDesc scene{.layout = layout_, .colors = {kColorFormat}, .depth = kDepthFormat};
-    scene.vertexShader = character_vert;
-    scene.fragmentShader = character_frag;
-    characterPipeline_ = must(createGraphicsPipeline(device, scene));
     scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
     scene.vertexShader = ground_vert;
     scene.fragmentShader = ground_frag;
@@ -185,58 +137,44 @@ void Scene::update(uint32_t slot, const Camera& camera, const std::vector<std::s
     }
 }
 
-void Scene::drawCharacters(VkCommandBuffer commands, uint32_t slot, bool sun, bool paint) const {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sun ? sunPipeline_ : characterPipeline_);
-    const VkDescriptorSet sets[] = {sceneSets_[slot], crowdSet_};
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0, nullptr);
-    const CharacterPush push{draws_.firstDraw(0), paint ? 1u : 0u, sun ? 1u : 0u};
-    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
-    draws_.draw(commands, 0);
-}
-
 void Scene::addToGraph(Graph& graph, uint32_t slot, Resource buffers, bool paint) const {
-    graph.add("gather", {reads(buffers, ViewDraws::kReads), writes(drawsUse_, ViewDraws::kWrites)},
-              [this](VkCommandBuffer commands) { draws_.record(commands); });
-    graph.add("sun",
-              {reads(buffers, kDrawn), reads(drawsUse_, kDrawn),
-               writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
-              [this, slot](VkCommandBuffer commands) {
-                  const VkRenderingAttachmentInfo depth =
-                      attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
-                  beginRendering(commands, sunMap_.desc().extent, {}, depth);
-                  drawCharacters(commands, slot, true, false);
-                  vkCmdEndRendering(commands);
-              });
-    graph.add(
-        "draw",
-        {reads(buffers, kDrawn), reads(drawsUse_, kDrawn),
-         reads(sunMapUse_, kSampledInFragment, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
-         writes(pictureUse_, kColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true),
-         writes(depthUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true)},
-        [this, slot, paint](VkCommandBuffer commands) {
-            const VkExtent2D extent = picture_.desc().extent;
-            const VkClearValue haze{.color = {{0.85f, 0.87f, 0.89f, 1.0f}}};
-            const VkRenderingAttachmentInfo color =
-                attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, haze);
-            const VkRenderingAttachmentInfo depth = attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
-            beginRendering(commands, extent, {&color, 1}, depth);
-            drawCharacters(commands, slot, false, paint);
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, groundPipeline_);
-            vkCmdDraw(commands, 4, 1, 0, 0);
-            if (wall_) {
-                const glm::vec4 wall{0.7f * crowd_.reach(), kWallHeight, 0.2f, kWallAngle};
-                vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof wall, &wall);
-                vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wallPipeline_);
-                vkCmdDraw(commands, 36, 1, 0, 0);
-            }
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textPipeline_);
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textLayout_, 0, 1, &textSets_[slot], 0,
-                                    nullptr);
-            const glm::vec2 scale{2.0f / static_cast<float>(extent.width), 2.0f / static_cast<float>(extent.height)};
-            vkCmdPushConstants(commands, textLayout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof scale, &scale);
-            vkCmdDraw(commands, 6 * textQuads_, 1, 0, 0);
-            vkCmdEndRendering(commands);
-        });
+    characters_->addToGraph(graph, buffers);
+    std::vector<Use> sun = characters_->uses(buffers), drawn = sun;
+    sun.push_back(writes(sunMapUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true));
+    drawn.push_back(reads(sunMapUse_, kSampledInFragment, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL));
+    drawn.push_back(writes(pictureUse_, kColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true));
+    drawn.push_back(writes(depthUse_, kDepthAttachment, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, true));
+    graph.add("sun", std::move(sun), [this, slot](VkCommandBuffer commands) {
+        const VkRenderingAttachmentInfo depth = attachment(sunMap_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+        beginRendering(commands, sunMap_.desc().extent, {}, depth);
+        characters_->draw(commands, sceneSets_[slot], true, false);
+        vkCmdEndRendering(commands);
+    });
+    graph.add("draw", std::move(drawn), [this, slot, paint](VkCommandBuffer commands) {
+        const VkExtent2D extent = picture_.desc().extent;
+        const VkClearValue haze{.color = {{0.85f, 0.87f, 0.89f, 1.0f}}};
+        const VkRenderingAttachmentInfo color = attachment(picture_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, haze);
+        const VkRenderingAttachmentInfo depth = attachment(depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar);
+        beginRendering(commands, extent, {&color, 1}, depth);
+        characters_->draw(commands, sceneSets_[slot], false, paint);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, groundPipeline_);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &sceneSets_[slot], 0,
+                                nullptr);
+        vkCmdDraw(commands, 4, 1, 0, 0);
+        if (wall_) {
+            const glm::vec4 wall{0.7f * crowd_.reach(), kWallHeight, 0.2f, kWallAngle};
+            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof wall, &wall);
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, wallPipeline_);
+            vkCmdDraw(commands, 36, 1, 0, 0);
+        }
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textPipeline_);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, textLayout_, 0, 1, &textSets_[slot], 0,
+                                nullptr);
+        const glm::vec2 scale{2.0f / static_cast<float>(extent.width), 2.0f / static_cast<float>(extent.height)};
+        vkCmdPushConstants(commands, textLayout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof scale, &scale);
+        vkCmdDraw(commands, 6 * textQuads_, 1, 0, 0);
+        vkCmdEndRendering(commands);
+    });
     if (pyramid_)
         graph.add("pyramid",
                   {reads(depthUse_, kSampledInCompute, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),

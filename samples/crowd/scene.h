@@ -1,9 +1,8 @@
 // What is drawn: the crowd, the ground, haze, and a report on top, with one shadow map, into a picture.
 #pragma once
 
-#include "crowd.h"
+#include "characters.h"
 #include "host/depth_pyramid.h"
-#include "host/view_draws.h"
 
 #include <memory>
 
@@ -36,11 +35,8 @@ public:
     [[nodiscard]] Resource pyramidUse() const { return pyramidUse_; }
 
 private:
-    void drawCharacters(VkCommandBuffer commands, uint32_t slot, bool sun, bool paint) const;
-
     const Crowd& crowd_;
-    ViewDraws draws_;
-    Resource drawsUse_; ///< the buffers of draws_
+    std::unique_ptr<Characters> characters_;
     Image sunMap_, picture_, depth_;
     std::unique_ptr<DepthPyramid> pyramid_;
     Resource sunMapUse_, pictureUse_, depthUse_, pyramidUse_;
@@ -50,9 +46,7 @@ private:
     uint32_t textQuads_ = 0;
     VkPipelineLayout layout_ = VK_NULL_HANDLE, textLayout_ = VK_NULL_HANDLE;
     VkDescriptorSet sceneSets_[kFramesInFlight]{}, textSets_[kFramesInFlight]{};
-    VkDescriptorSet crowdSet_ = VK_NULL_HANDLE;
-    VkPipeline sunPipeline_ = VK_NULL_HANDLE, characterPipeline_ = VK_NULL_HANDLE, groundPipeline_ = VK_NULL_HANDLE,
-               wallPipeline_ = VK_NULL_HANDLE, textPipeline_ = VK_NULL_HANDLE;
+    VkPipeline groundPipeline_ = VK_NULL_HANDLE, wallPipeline_ = VK_NULL_HANDLE, textPipeline_ = VK_NULL_HANDLE;
 };
 
 } // namespace crowd

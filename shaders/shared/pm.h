@@ -49,29 +49,16 @@ SUPPLE_SHARED_CONST kBackSetShift = 16u;
 
 // Words of P_m patches.
 SUPPLE_SHARED_CONST kEndsBehind = 1u << kPointBits;
-SUPPLE_SHARED_CONST kInnerBits = 27u; // b004: a pool has fewer coefficients than that
+SUPPLE_SHARED_CONST kInnerBits = SUPPLE_INNER_BITS; // b004: a pool has fewer coefficients than that
 SUPPLE_SHARED_CONST kEdgeClassBits = 10u;
 SUPPLE_SHARED_CONST kMaxPmEdgeClasses = 1u << kEdgeClassBits;
 
 SUPPLE_SHARED_END
 
 #define SUPPLE_ACROSS_STEP(pointWord) (int(pointWord) >> int(kSpokeBits))
-#define SUPPLE_INNER(word) ((word) & ((1u << kInnerBits) - 1u))
-#define SUPPLE_SINGULAR(word) ((word) >> kInnerBits)
 #define SUPPLE_EDGE_CLASS(word, i) ((word) >> kEdgeClassBits * ((i) % 3u) & (kMaxPmEdgeClasses - 1u))
 
-// Words of a record, of corner i and of m corners.
-#define SUPPLE_PM_POINT_WORD(i) ((i) < 4u ? (i) : 8u)
-#define SUPPLE_PM_SPOKE_WORD(i) ((i) < 4u ? 4u + (i) : 9u)
-#define SUPPLE_PM_INNER_WORD(m) ((m) == 5u ? 10u : (m) == 4u ? 8u : 3u)
+// A word of a record, of edge i and of m corners. The words that evaluation reads stand in shaders/supple_patch_layout.h.
 #define SUPPLE_PM_CLASS_WORD(m, i) (((m) == 5u ? 11u : (m) == 4u ? 9u : 7u) + (i) / 3u)
-#define SUPPLE_PM_RECORD_ELEMENTS(m) ((m)-1u)
-
-// Where the derivatives at a corner are parallel, those of so far along the border stand for them.
-#define SUPPLE_PM_SINGULAR_STEP 1e-3
-
-// k0 and k1 of (3) for facets of m sides.
-#define SUPPLE_PM_RAY_SIDE(m) ((m) == 5u ? 0.7236067977499790 : (m) == 4u ? 0.5 : 1.0 / 3.0)
-#define SUPPLE_PM_RAY_MIDDLE(m) ((m) == 5u ? -0.4472135954999579 : (m) == 4u ? 0.0 : 1.0 / 3.0)
 
 #endif

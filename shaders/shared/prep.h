@@ -37,7 +37,7 @@ SUPPLE_SHARED_CONST kBoundaryClass = 0x80000000u;
 
 SUPPLE_SHARED_CONST kReversedEdgeOfPatch = 0x80000000u;
 SUPPLE_SHARED_CONST kStillEdgeOfPatch = 0x40000000u;
-SUPPLE_SHARED_CONST kEdgeOfPatchMask = 0x3FFFFFFFu;
+SUPPLE_SHARED_CONST kEdgeOfPatchMask = SUPPLE_PREP_EDGE_MASK;
 
 SUPPLE_SHARED_CONST kEdgeClassElements = 6u;
 
@@ -49,13 +49,5 @@ SUPPLE_SHARED_CONST kTurnMask = 0x3FFFFFFFu;
 SUPPLE_SHARED_END
 
 #define SUPPLE_PREP_EDGE_CLASS(wordA, wordB) ((wordA) >> kPointBits | (wordB) >> kPointBits << (32u - kPointBits))
-
-// The pool index of the s-th coefficient of an edge, as the patch has them.
-#define SUPPLE_PREP_EDGE_INDEX(word, s) (((word)&kEdgeOfPatchMask) + ((s) ^ ((word) >> 31)))
-
-// Evaluation order of the 16 perturbation coefficients (h_2j, h_3j for j = 0, 1, 4, 5; h_i2, h_i3 for i = 0, 1, 4, 5)
-// to face edge order h[4 e + s], s = local (2,0), (3,0), (2,1), (3,1) of face edge e. 0, 2, 11, 9, 1, 3, 10, 8, 13, 12,
-// 15, 14, 6, 7, 4, 5: four bits a coefficient, as in shared/surface.h.
-#define SUPPLE_PREP_FACE_EDGE(k) (((k) < 8u ? 0x8A319B20u : 0x5476EFCDu) >> 4u * ((k)&7u) & 15u)
 
 #endif

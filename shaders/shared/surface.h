@@ -45,6 +45,7 @@
 #include "shaders/shared/portable.h"
 #include "shaders/shared/table_header.h"
 #include "shaders/shared/window.h"
+#include "shaders/supple_patch_layout.h"
 
 SUPPLE_SHARED_BEGIN
 
@@ -119,17 +120,13 @@ SUPPLE_SHARED_CONST kOutputMapFrames = 8u; // no output: with directions, corner
 // reads: octahedral coordinates in snorm16 and snorm15, then that bit.
 SUPPLE_SHARED_CONST kNegativeFrame = 0x80000000u;
 
-SUPPLE_SHARED_CONST kNoNormal = 0xFFFFFFFFu;
+SUPPLE_SHARED_CONST kNoNormal = SUPPLE_NO_NORMAL;
 
 // Spokes in records of bicubic patches.
-SUPPLE_SHARED_CONST kSpokeBits = 22u;
+SUPPLE_SHARED_CONST kSpokeBits = SUPPLE_SPOKE_BITS;
 SUPPLE_SHARED_CONST kMaxSpokes = 1u << kSpokeBits;
 SUPPLE_SHARED_CONST kMaxSpokeStep = 511u; // up or down
-#define SUPPLE_SPOKE(word) ((word) & (kMaxSpokes - 1u))
-#define SUPPLE_NEXT_SPOKE(word) (SUPPLE_SPOKE(word) + uint(int(word) >> int(kSpokeBits)))
-// Limit points in records: every one has two spokes and more.
-SUPPLE_SHARED_CONST kPointBits = kSpokeBits - 1u;
-#define SUPPLE_POINT(word) ((word) & ((1u << kPointBits) - 1u))
+SUPPLE_SHARED_CONST kPointBits = SUPPLE_POINT_BITS; // limit points in records
 
 // Kinds of fans: specialization of the vertex stage. Creased and variable ones are P_m's alone.
 SUPPLE_SHARED_CONST kRegularFan = 0u; // closed, four facets, no crease

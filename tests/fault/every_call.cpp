@@ -540,6 +540,11 @@ private:
         call(
             "suppleGetRayGeometry, of a group that is not traced",
             [&] { return suppleGetRayGeometry(handle(), groups_[0], 0, &geometry); }, SUPPLE_ERROR_ARGUMENT);
+        SuppleDirectOutput direct{};
+        direct.structSize = sizeof(direct);
+        call(
+            "suppleGetDirectOutput, of a group that stores its vertices",
+            [&] { return suppleGetDirectOutput(handle(), groups_[0], 0, &direct); }, SUPPLE_ERROR_ARGUMENT);
         get<SuppleLevelOutput>("suppleGetLevelOutput",
                                [&](auto* out) { return suppleGetLevelOutput(handle(), groups_[kSeen], 0, out); });
         get<SuppleMemoryUse>("suppleGetAssetMemory",

@@ -15,7 +15,9 @@ import sys
 # Bottom up, one floor a line. A room is a folder, or the files whose paths begin as it says; a file belongs to the
 # longest room that fits. It may include its own room and the floors below. Rooms of one floor never include each other.
 FLOORS = [line.split() for line in """
+    shaders/supple_patch_layout.h
     base/ shaders/shared/ shaders/supple_surface.glsl shaders/trim.glsl shaders/supple_depth_pyramid.comp
+    shaders/supple_patch.glsl
     shaders/surface/ shaders/pose/ shaders/deform/
     shaders/lod/ shaders/soft/
     shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/ shaders/recording/ shaders/points/
@@ -42,7 +44,8 @@ FLOORS = [line.split() for line in """
 """.strip().splitlines()]
 
 # What hosts get of Supple. These files include nothing else of the tree: they are installed without it.
-PUBLIC = ["runtime/include/", "shaders/supple_surface.glsl", "shaders/trim.glsl", "shaders/supple_depth_pyramid.comp"]
+PUBLIC = ["runtime/include/", "shaders/supple_surface.glsl", "shaders/supple_patch.glsl", "shaders/supple_patch_layout.h", "shaders/trim.glsl",
+          "shaders/supple_depth_pyramid.comp"]
 
 # Rooms that may include less than all floors below them: these rooms alone.
 ONLY = {

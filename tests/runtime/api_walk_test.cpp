@@ -1685,6 +1685,17 @@ void groups(Rows& r) {
     });
     conflict(kRays, suppleGetRayGeometry, "of a cage", &World::spare);
     conflict(kRays, suppleGetRayGeometry, "of levels", &World::seen);
+    // tests/runtime/direct_test.cpp asks a group that has it.
+    constexpr const char* kDirect = "suppleGetDirectOutput";
+    r.groups(kDirect, [](World& w, SuppleContext c, SuppleGroup g) {
+        return suppleGetDirectOutput(c, g, 0, w.watched<SuppleDirectOutput>(sizeof(SuppleDirectOutput)));
+    });
+    r.refuse(kDirect, "surface 1", SUPPLE_MESSAGE_OUT_OF_RANGE, [](World& w) {
+        return suppleGetDirectOutput(w.handle(), w.mine.main.group, 1,
+                                     w.watched<SuppleDirectOutput>(sizeof(SuppleDirectOutput)));
+    });
+    conflict(kDirect, suppleGetDirectOutput, "of a cage", &World::spare);
+    conflict(kDirect, suppleGetDirectOutput, "of levels", &World::seen);
     constexpr const char* kBounds = "suppleGetInstanceBounds";
     r.groups(kBounds, [](World& w, SuppleContext c, SuppleGroup g) {
         return suppleGetInstanceBounds(c, g, w.plain<SuppleBufferRange>());
@@ -2928,8 +2939,9 @@ TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
 
 TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
     std::string header;
-    std::vector<const char*> names{"supple.h",           "supple_view.h",      "supple_playback.h", "supple_prepare.h",
-                                   "supple_character.h", "supple_recording.h", "supple_points.h",   "supple_rays.h"};
+    std::vector<const char*> names{"supple.h",         "supple_view.h",      "supple_playback.h",
+                                   "supple_prepare.h", "supple_character.h", "supple_recording.h",
+                                   "supple_points.h",  "supple_rays.h",      "supple_direct.h"};
 #if defined(SUPPLE_WITH_CPU)
     names.push_back("supple_cpu.h");
 #endif

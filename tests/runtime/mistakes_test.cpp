@@ -347,6 +347,21 @@ void addOutputs(std::vector<Mistake>& rows) {
                         auto out = Scene::asking<SuppleRayGeometry>();
                         return suppleGetRayGeometry(s.context(), s.cage.group, 0, &out);
                     }});
+    rows.push_back({"`suppleGetDirectOutput` of a group without `SUPPLE_GROUP_DIRECT`", [](Scene& s) {
+                        auto out = Scene::asking<SuppleDirectOutput>();
+                        return suppleGetDirectOutput(s.context(), s.cage.group, 0, &out);
+                    }});
+    rows.push_back({"a group of Catmull-Clark with `SUPPLE_GROUP_DIRECT`", [](Scene& s) {
+                        return createGroup(s.context(), s.asset,
+                                           {.flags = SUPPLE_GROUP_DIRECT, .scheme = SUPPLE_SCHEME_CATMULL_CLARK})
+                            .result;
+                    }});
+    rows.push_back({"`SUPPLE_GROUP_DIRECT` with `SUPPLE_GROUP_MOTION`", [](Scene& s) {
+                        return createGroup(
+                                   s.context(), s.asset,
+                                   {.flags = SUPPLE_GROUP_DIRECT | SUPPLE_GROUP_MOTION, .scheme = SUPPLE_SCHEME_PM})
+                            .result;
+                    }});
     rows.push_back({"a surface that the group lacks", [](Scene& s) {
                         auto out = Scene::asking<SuppleSurfaceInfo>();
                         return suppleGetSurfaceInfo(s.context(), s.cage.group, 1, &out);

@@ -83,6 +83,22 @@ TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
     }
 }
 
+// Of what hosts compile (shaders/supple_patch.glsl), as of kernels.
+TEST(Precise, CoversPositionsThatHostsEvaluate) {
+    constexpr const char* kShader = SUPPLE_SOURCE_DIR "/tests/runtime/shaders/direct.comp";
+    for (const std::string form : {"", " -DSUPPLE_PATCH_TEXELS"}) {
+        const std::vector<uint32_t> spirv = compileShader(kShader, "", "-I" SUPPLE_SOURCE_DIR "/shaders" + form);
+        ASSERT_FALSE(spirv.empty());
+        uint32_t checked = 0, loops = 0;
+        for (const std::string& offence : imprecisePositionArithmetic(spirv, "position", checked)) {
+            ADD_FAILURE() << offence;
+        }
+        std::printf("%u operations carry NoContraction\n", checked);
+        EXPECT_GE(checked, 100u);
+        EXPECT_EQ(preciseInUnrolledLoops(spirv, loops), 0u);
+    }
+}
+
 // So poses and cages have the same words on every driver (shaders/shared/portable.h).
 TEST(Precise, PosesAndCagesAskForNothingThatDriversRoundAsTheyLike) {
     uint32_t kernels = 0;

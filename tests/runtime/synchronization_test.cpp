@@ -191,6 +191,29 @@ TEST_F(AsyncCompute, HandsOverWhatTheFrameWrote) {
     EXPECT_EQ(handedOver(both), sorted(buffers));
 }
 
+/// Coefficients in every frame, the tables that say where they lie once.
+TEST_F(AsyncCompute, HandsOverWhatPatchesAreEvaluatedFrom) {
+    const SmallGroup direct = createGroup(
+        context->handle(), asset, {.flags = SUPPLE_GROUP_DIRECT | SUPPLE_GROUP_ATTRIBUTES, .scheme = SUPPLE_SCHEME_PM});
+    ASSERT_EQ(direct.result, SUPPLE_OK);
+    const host::GroupOutput output = outputOf(context->handle(), direct.group);
+    SuppleDirectOutput from{};
+    from.structSize = sizeof(from);
+    ASSERT_EQ(suppleGetDirectOutput(context->handle(), direct.group, 0, &from), SUPPLE_OK);
+    std::vector<VkBuffer> buffers{from.coefficients.buffer,    output.info.deformedCage.buffer,
+                                  output.info.poses.buffer,    output.info.instances.buffer,
+                                  output.info.userData.buffer, output.indirect().buffer};
+    std::vector<VkBuffer> first = buffers;
+    for (const VkBuffer once : {from.tables.buffer, output.indices().buffer, output.streams.attributes.buffer,
+                                output.streams.uvs1.buffer, output.streams.faceUvs.buffer}) {
+        if (once != VK_NULL_HANDLE) {
+            first.push_back(once);
+        }
+    }
+    EXPECT_EQ(handedOver({&direct.group, 1}), sorted(first));
+    EXPECT_EQ(handedOver({&direct.group, 1}), sorted(buffers));
+}
+
 #if defined(SUPPLE_WITH_CPU)
 /// Of point sets, those that were there when the group was recorded.
 TEST_F(AsyncCompute, HandsOverPointsThatTheFrameHad) {

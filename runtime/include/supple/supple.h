@@ -12,8 +12,9 @@
  *
  * This header is in the order of use. supple_character.h (characters from arrays), supple_prepare.h (characters read on
  * any thread), supple_view.h (level of detail, culling), supple_playback.h (layers of clips, root motion, clips that
- * the device plays), supple_points.h (points that ride on surfaces), supple_rays.h (ray tracing) and supple_recording.h
- * (what a host does, to be replayed) are for hosts that need them. This header includes all seven at its end.
+ * the device plays), supple_points.h (points that ride on surfaces), supple_rays.h (ray tracing), supple_direct.h
+ * (evaluation while drawing) and supple_recording.h (what a host does, to be replayed) are for hosts that need them.
+ * This header includes all eight at its end.
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
@@ -1073,7 +1074,13 @@ typedef enum SuppleGroupFlags {
      * from the surface vertices (suppleGetRayGeometry). Grids have 12 bytes of indices more for each triangle of an
      * instance, which all instances share. suppleSetRate takes no other rate than the group's. To trace what a view
      * draws, let a group with this flag follow its group (SuppleGroupDesc.instancesOf): docs/ray_tracing.md. */
-    SUPPLE_GROUP_RAY_TRACING = 32768
+    SUPPLE_GROUP_RAY_TRACING = 32768,
+    /** PREP and PM without a view: surface vertices are neither stored nor written. The host's shaders evaluate patches
+     * while they draw (supple_direct.h), with the same bits. That saves memory, and costs time (docs/direct.md).
+     * Surfaces of other schemes in the same group have their vertices as ever; suppleCreateGroup fails if all are of
+     * others. vertexFormat means nothing to the rest. It goes with neither MOTION, TANGENTS, INDEXED_MESH nor
+     * RAY_TRACING. */
+    SUPPLE_GROUP_DIRECT = 65536
 } SuppleGroupFlags;
 
 /** How the surface of a group is made, and how many instances it has room for. */
@@ -1444,7 +1451,10 @@ typedef enum SuppleTessellation {
     /** FRAGMENTS in a view: grids, and a rate per instance. POLYGONS in a view: one mesh per instance, and one rate.
      * SuppleGridOutput. */
     SUPPLE_TESSELLATION_RATES = 3,
-    SUPPLE_TESSELLATION_LEVELS = 4 /**< other schemes in a view: SuppleLevelOutput in supple_view.h */
+    SUPPLE_TESSELLATION_LEVELS = 4, /**< other schemes in a view: SuppleLevelOutput in supple_view.h */
+    /** SUPPLE_GROUP_DIRECT: GRIDS without vertices. SuppleGridOutput says what to draw, SuppleDirectOutput what the
+     * host's shaders make vertices of. All patches of a draw range have one class. */
+    SUPPLE_TESSELLATION_DIRECT = 5
 } SuppleTessellation;
 
 /** What every group has. */
@@ -1522,7 +1532,7 @@ SUPPLE_API SuppleResult suppleGetSurfaceInfo(SuppleContext context, SuppleGroup 
 typedef struct SuppleVertexStreams {
     uint32_t structSize;
     SuppleVertexFormat vertexFormat;
-    SuppleBufferRange vertices; /**< in vertexFormat */
+    SuppleBufferRange vertices; /**< in vertexFormat. Null with SUPPLE_TESSELLATION_DIRECT */
     /** MOTION: float3, where the vertex was in the group's suppleRecord before the last one, at the present rate,
      * relative to the present origin. For new instances (suppleTeleport) it is the present position. In a frame that
      * does not record the group, nothing has moved since the frame before: bind `vertices` in its place, with their
@@ -1597,8 +1607,8 @@ typedef struct SuppleRate {
     SuppleBufferRange instances;
 } SuppleRate;
 
-/** Tessellation GRIDS, INDEXED_MESH and RATES: what is drawn. All of it, arrays too, is valid until the group is
- * destroyed or made anew, or its rate is set.
+/** Tessellation GRIDS, INDEXED_MESH, RATES and DIRECT: what is drawn. All of it, arrays too, is valid until the group
+ * is destroyed or made anew, or its rate is set.
  *
  * Sample s of patch p, in the draw range r, is the surface vertex slot * verticesPerInstance + r.firstVertex +
  * (p - r.firstPatch) * r.samplesPerPatch + s. Of a MESH, index i is the vertex slot * verticesPerInstance + i. */
@@ -1810,6 +1820,7 @@ SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSiz
 #endif
 
 #include "supple_character.h" /* IWYU pragma: export */
+#include "supple_direct.h"    /* IWYU pragma: export */
 #include "supple_playback.h"  /* IWYU pragma: export */
 #include "supple_points.h"    /* IWYU pragma: export */
 #include "supple_prepare.h"   /* IWYU pragma: export */

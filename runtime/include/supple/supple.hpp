@@ -498,6 +498,11 @@ public:
         out = sized<SuppleRayGeometry>();
         return suppleGetRayGeometry(context_, handle_, surface, &out);
     }
+    /// With SUPPLE_GROUP_DIRECT: what the host's shaders evaluate patches from.
+    [[nodiscard]] SuppleResult directOutput(SuppleDirectOutput& out, uint32_t surface = 0) const {
+        out = sized<SuppleDirectOutput>();
+        return suppleGetDirectOutput(context_, handle_, surface, &out);
+    }
     [[nodiscard]] SuppleResult levelOutput(SuppleLevelOutput& out, uint32_t surface = 0) const {
         out = sized<SuppleLevelOutput>();
         return suppleGetLevelOutput(context_, handle_, surface, &out);

@@ -5,6 +5,7 @@
 #include "supple_surface.glsl"
 #include "../../../host/shaders/view_draws.h"
 #include "scene.glsl"
+#include "tint.glsl"
 
 layout(set = 1, binding = 6, std430) readonly buffer Drawn { ViewDraw drawn[]; };
 layout(set = 1, binding = 7, std430) readonly buffer UserData { vec4 of[]; } userData[3]; // by kind: suppleSetUserData
@@ -18,13 +19,6 @@ layout(push_constant) uniform Push {
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec3 outColor;
-
-// Every instance has a tint of its own (crowd.cpp): turned round the grey axis by x, then lighter or darker by y.
-vec3 tinted(vec3 color, vec2 tint) {
-    float angle = tint.x;
-    vec3 turned = cos(angle) * color + sin(angle) * cross(vec3(0.57735), color) + (1.0 - cos(angle)) * dot(vec3(1.0 / 3.0), color);
-    return max(turned, vec3(0.0)) * tint.y;
-}
 
 // From blue, coarse, to red, fine.
 vec3 capacityColor(uint capacity) {

@@ -1,0 +1,644 @@
+// SUPPLE_GROUP_DIRECT: what shaders/supple_patch.glsl makes of patches has the bits of stored vertices, for all classes
+// of patches and at any rate; pictures are the same; and the group has no memory for vertices.
+#include "host/draw_target.h"
+#include "host/pipelines.h"
+#include "host/rendering.h"
+#include "shaders/direct_comp.h"
+#include "shaders/direct_comp_DERIVATIVES.h"
+#include "shaders/direct_comp_SUPPLE_PATCH_TEXELS.h"
+#include "shaders/direct_vert.h"
+#include "shaders/direct_vert_SUPPLE_PATCH_TEXELS.h"
+#include "shaders/prop_frag.h"
+#include "shaders/ranges_vert.h"
+#include "shaders/supple_patch_layout.h"
+#include "surface/schemes.h"
+#include "tests/support/crowd.h"
+#include "tests/support/meshes.h"
+#include "tests/support/pm_zoo.h"
+#include "tests/support/sample_assets.h"
+#include "tests/support/shader_range.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <set>
+#include <string_view>
+
+namespace supple::test {
+namespace {
+
+constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                           kTexels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+
+struct DirectPush {
+    SupplePatchRange range{};
+    uint32_t verticesPerInstance = 0;
+    uint32_t count = 0;
+};
+struct PicturePush {
+    glm::vec4 window{0.0f, 0.8f, 1.3f, 0.0f};
+    SupplePatchRange direct{};
+};
+struct StoredPush {
+    glm::vec4 window{0.0f, 0.8f, 1.3f, 0.0f};
+    ShaderRange range;
+};
+
+SuppleDirectOutput directOutput(const Crowd& crowd) {
+    SuppleDirectOutput out{};
+    out.structSize = sizeof out;
+    EXPECT_EQ(suppleGetDirectOutput(crowd.context().handle(), crowd.group(), 0, &out), SUPPLE_OK);
+    EXPECT_EQ(out.layout, SUPPLE_PATCH_LAYOUT);
+    return out;
+}
+
+/// The bindings of supple_patch.glsl, and one more of a storage buffer.
+class DirectSet {
+public:
+    DirectSet(host::Device& device, VkShaderStageFlags stages, bool texels) : device_(device), texels_(texels) {
+        const VkDescriptorType patches = texels ? kTexels : kStorage;
+        layout_ = *host::createSetLayout(
+            device, {{0, kStorage, stages}, {4, kStorage, stages}, {6, patches, stages}, {7, patches, stages}});
+        pool_ = std::move(*host::DescriptorPool::create(device, 1));
+        set_ = *pool_.allocate(layout_);
+    }
+    void write(const SuppleBufferRange& instances, const SuppleDirectOutput& from, VkBuffer fourth) {
+        pool_.write(set_, {host::storageBuffer(0, instances), host::storageBuffer(4, fourth, 0, VK_WHOLE_SIZE),
+                           patches(6, from.tables, VK_FORMAT_R32G32B32A32_UINT),
+                           patches(7, from.coefficients, VK_FORMAT_R32G32B32A32_SFLOAT)});
+    }
+    [[nodiscard]] VkDescriptorSetLayout layout() const { return layout_; }
+    [[nodiscard]] VkDescriptorSet set() const { return set_; }
+
+private:
+    [[nodiscard]] host::Write patches(uint32_t binding, const SuppleBufferRange& range, VkFormat format) const {
+        return texels_ ? host::texels(binding, *host::createTexels(device_, range, format))
+                       : host::storageBuffer(binding, range);
+    }
+
+    host::Device& device_;
+    bool texels_ = false;
+    VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
+    host::DescriptorPool pool_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+/// Evaluates the groups of a device by a compute shader.
+class Evaluator {
+public:
+    Evaluator(host::Device& device, bool texels)
+        : Evaluator(device, texels,
+                    texels ? std::span<const uint32_t>(direct_comp_SUPPLE_PATCH_TEXELS)
+                           : std::span<const uint32_t>(direct_comp)) {}
+    Evaluator(host::Device& device, bool texels, std::span<const uint32_t> shader)
+        : device_(device), set_(device, VK_SHADER_STAGE_COMPUTE_BIT, texels),
+          layout_(
+              *host::createPipelineLayout(device, {set_.layout()}, sizeof(DirectPush), VK_SHADER_STAGE_COMPUTE_BIT)),
+          pipeline_(*host::createComputePipeline(device, layout_, shader)) {}
+
+    /// Six floats a vertex, as SUPPLE_VERTEX_24 has them, of instances from a slot on: `first` as if they were a
+    /// window.
+    std::vector<glm::vec3> evaluate(const Crowd& crowd, uint32_t instances, uint32_t first = 0) {
+        const SuppleGridOutput grid = crowd.output().grid;
+        SuppleDirectOutput from = directOutput(crowd);
+        EXPECT_EQ(from.rangeCount, grid.drawRangeCount);
+        const VkDeviceSize skipped = VkDeviceSize{16} * first * from.ranges[0].coefficientsPerInstance;
+        from.coefficients.offset += skipped;
+        from.coefficients.size -= skipped;
+        const std::vector<glm::vec3> none(size_t{2} * (first + instances) * grid.verticesPerInstance);
+        const host::Buffer result =
+            std::move(*device_.uploadBuffer(none.data(), none.size() * sizeof(glm::vec3),
+                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
+        set_.write(grid.rates[0].instances, from, result.handle());
+        const VkDescriptorSet set = set_.set();
+        EXPECT_TRUE(
+            device_
+                .submitAndWait([&](VkCommandBuffer commands) {
+                    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
+                    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set, 0, nullptr);
+                    for (uint32_t r = 0; r < from.rangeCount; ++r) {
+                        DirectPush push{from.ranges[r], grid.verticesPerInstance, 0};
+                        push.range.firstSlot = first;
+                        push.count = instances * push.range.patchCount * push.range.samplesPerPatch;
+                        vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
+                        vkCmdDispatch(commands, (push.count + 63) / 64, 1, 1);
+                    }
+                })
+                .ok());
+        return as<glm::vec3>(*device_.readBuffer(result.handle(), 0, none.size() * sizeof(glm::vec3)));
+    }
+
+private:
+    host::Device& device_;
+    DirectSet set_;
+    VkPipelineLayout layout_;
+    VkPipeline pipeline_;
+};
+
+/// Two instances: one where it is, one far from the origin and turned.
+void place(Crowd& crowd, uint32_t clip) {
+    const glm::mat4 turned =
+        glm::rotate(glm::translate(glm::mat4(1.0f), {37.0f, 11.0f, -52.0f}), 0.7f, {0.3f, 1.0f, 0.2f});
+    crowd.pose(crowd.spawn(), clip, 0.4, glm::mat4(1.0f));
+    crowd.pose(crowd.spawn(), clip, 0.9, turned);
+}
+
+struct Compared {
+    size_t vertices = 0, different = 0;
+    float largestTurn = 0.0f; ///< of normals
+
+    void add(const Crowd& stored, const std::vector<glm::vec3>& made, uint32_t slot) {
+        const SuppleGridOutput grid = stored.output().grid;
+        const std::vector<glm::vec3> vertices = as<glm::vec3>(stored.read(stored.output().streams.vertices));
+        for (size_t v = 0; v < grid.vertexCount; ++v) {
+            const size_t at = 2 * (size_t{slot} * grid.verticesPerInstance + v);
+            using Bits = std::array<uint32_t, 3>;
+            different += std::bit_cast<Bits>(vertices[at]) != std::bit_cast<Bits>(made[at]) ? 1 : 0;
+            largestTurn = std::max(largestTurn, glm::distance(vertices[at + 1], made[at + 1]));
+            ++this->vertices;
+        }
+    }
+    void expectSame(const char* what) const {
+        std::printf("%s: %zu vertices, %zu differ, normals by %.2g\n", what, vertices, different,
+                    static_cast<double>(largestTurn));
+        EXPECT_GT(vertices, 0u);
+        EXPECT_EQ(different, 0u);
+        EXPECT_LT(largestTurn, 0.01f);
+    }
+};
+
+struct Subject {
+    std::string name;
+    SuppleScheme scheme = SUPPLE_SCHEME_PM;
+    cage::Cage cage;
+    SuppleCornerRule corners = SUPPLE_CORNERS_SHARP;
+};
+
+/// Corners of patches from a record on whose tangents are parallel: their normals are taken a step inside.
+uint32_t singularCorners(const std::vector<uint32_t>& words, uint32_t firstRecord, uint32_t patchClass,
+                         uint32_t patches) {
+    uint32_t corners = 0;
+    for (uint32_t p = 0; p < patches && patchClass >= SUPPLE_PATCH_P3 && patchClass <= SUPPLE_PATCH_P5; ++p) {
+        const uint32_t record = firstRecord + p * SUPPLE_PM_RECORD_ELEMENTS(patchClass);
+        corners +=
+            static_cast<uint32_t>(std::popcount(SUPPLE_SINGULAR(words[4 * record + SUPPLE_PM_INNER_WORD(patchClass)])));
+    }
+    return corners;
+}
+bool isSingular(const cage::Cage& cage) {
+    const Result<surface::Tables> tables = surface::buildTables({.scheme = surface::SchemeId::pm}, cage);
+    return tables && std::ranges::any_of(tables->ranges, [&](const surface::PatchRange& range) {
+               return singularCorners(tables->words, range.section.table, static_cast<uint32_t>(range.patchClass),
+                                      range.section.count) > 0;
+           });
+}
+
+std::vector<Subject> subjects() {
+    std::vector<Subject> all{
+        {"pentagons round a fan", SUPPLE_SCHEME_PM, perturbed(fanOverPentagons(5), 0.02f, 1)},
+        {"triangles round a fan", SUPPLE_SCHEME_PM, perturbed(fanOverTriangles(4), 0.02f, 2)},
+        {"capped cylinder", SUPPLE_SCHEME_PM, perturbed(cappedCylinder(8, 5), 0.02f, 3)},
+        {"jack, p-rep", SUPPLE_SCHEME_PREP, perturbed(jack(), 0.02f, 4)},
+        {"grid, p-rep", SUPPLE_SCHEME_PREP, perturbed(grid(4, 3), 0.02f, 5), SUPPLE_CORNERS_SMOOTH},
+    };
+    size_t creased = 0, singular = 0;
+    for (const PmCage& from : pmZoo()) {
+        const bool isCreased = from.variant == PmVariant::creased || from.variant == PmVariant::alphas;
+        if ((isCreased && creased++ % 12 == 0) || (isCreased && singular < 2 && isSingular(from.cage))) {
+            singular += isSingular(from.cage) ? 1 : 0;
+            all.push_back({from.name, SUPPLE_SCHEME_PM, from.cage});
+        }
+    }
+    return all;
+}
+
+/// A group with stored vertices, and one like it without.
+struct Pair {
+    Pair(CrowdContext& own, SuppleGroupDesc desc, uint32_t clip)
+        : stored(own, withFormat(desc)), direct(own, withFlag(desc)) {
+        place(stored, clip);
+        place(direct, clip);
+    }
+    [[nodiscard]] bool valid() const { return stored.valid() && direct.valid(); }
+    void setRate(uint32_t rate) {
+        stored.setRate(rate);
+        direct.setRate(rate);
+    }
+    void run() {
+        stored.run();
+        direct.context().run(direct.group());
+    }
+    static SuppleGroupDesc withFormat(SuppleGroupDesc desc) {
+        desc.vertexFormat = SUPPLE_VERTEX_24;
+        return desc;
+    }
+    static SuppleGroupDesc withFlag(SuppleGroupDesc desc) {
+        desc.flags |= SUPPLE_GROUP_DIRECT;
+        return desc;
+    }
+
+    Crowd stored, direct;
+};
+
+class Direct : public CrowdContexts {};
+class DirectBits : public CrowdContexts, public testing::WithParamInterface<SuppleMapping> {};
+
+TEST_P(DirectBits, AreThoseOfStoredVertices) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(GetParam());
+    ASSERT_TRUE(own.valid());
+    Evaluator texels(own.device(), true), buffers(own.device(), false);
+    std::set<uint32_t> classes;
+    uint32_t singular = 0, cornerNormals = 0;
+    Compared compared;
+    for (const Subject& subject : subjects()) {
+        SupplePrepOptions prep{};
+        prep.structSize = sizeof prep;
+        prep.cornerRule = subject.corners;
+        SuppleGroupDesc desc{};
+        desc.asset = own.createAsset(subject.cage);
+        desc.capacity = 2;
+        desc.scheme = subject.scheme;
+        desc.rate = 16;
+        desc.prep = &prep;
+        Pair pair(own, desc, SUPPLE_BIND_POSE);
+        ASSERT_TRUE(pair.valid()) << subject.name;
+        for (const uint32_t rate : {16u, 8u, 5u, 3u, 2u, 1u}) {
+            pair.setRate(rate);
+            pair.run();
+            Compared here;
+            const std::vector<glm::vec3> made = (rate == 5 ? buffers : texels).evaluate(pair.direct, 2);
+            here.add(pair.stored, made, 0);
+            here.add(pair.stored, made, 1);
+            EXPECT_EQ(here.different, 0u) << subject.name << " at rate " << rate;
+            EXPECT_LT(here.largestTurn, 0.01f) << subject.name << " at rate " << rate;
+            compared.vertices += here.vertices;
+            compared.different += here.different;
+            compared.largestTurn = std::max(compared.largestTurn, here.largestTurn);
+        }
+        const SuppleDirectOutput output = directOutput(pair.direct);
+        const std::vector<uint32_t> words = as<uint32_t>(pair.direct.read(output.tables));
+        for (const SupplePatchRange& range : std::span(output.ranges, output.rangeCount)) {
+            classes.insert(range.patchClass);
+            singular += singularCorners(words, range.firstRecord, range.patchClass, range.patchCount);
+            cornerNormals += range.patchClass == SUPPLE_PATCH_REGULAR && range.recordElements == 3 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(singular, 0u) << "corners whose tangents are parallel";
+    EXPECT_GT(cornerNormals, 0u);
+    compared.expectSame("all classes");
+    EXPECT_EQ(classes, (std::set<uint32_t>{SUPPLE_PATCH_REGULAR, SUPPLE_PATCH_PERTURBED, SUPPLE_PATCH_POLAR,
+                                           SUPPLE_PATCH_P3, SUPPLE_PATCH_P4, SUPPLE_PATCH_P5}));
+}
+
+TEST_P(DirectBits, OfACharacterThatMovesAndOfAWindow) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(GetParam());
+    Evaluator evaluator(own.device(), false);
+    for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_PREP}) {
+        SuppleGroupDesc desc{};
+        desc.asset = own.asset(kPipQuads);
+        desc.capacity = 2;
+        desc.scheme = scheme;
+        desc.rate = 4;
+        Pair pair(own, desc, 0);
+        ASSERT_TRUE(pair.valid());
+        pair.run();
+        Compared all, window;
+        const std::vector<glm::vec3> made = evaluator.evaluate(pair.direct, 2);
+        all.add(pair.stored, made, 0);
+        all.add(pair.stored, made, 1);
+        all.expectSame("a character");
+        window.add(pair.stored, evaluator.evaluate(pair.direct, 1, 1), 1);
+        window.expectSame("its second instance, as a window");
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Mappings, DirectBits, testing::Values(SUPPLE_MAPPING_NARROW, SUPPLE_MAPPING_WIDE),
+                         [](const auto& info) { return info.param == SUPPLE_MAPPING_WIDE ? "Wide" : "Narrow"; });
+
+TEST_F(Direct, KeepsItsBitsWhenItIsMadeAnewAndWhenItFollows) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    Evaluator evaluator(own.device(), true);
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kPipQuads);
+    desc.capacity = 2;
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.rate = 3;
+    Pair pair(own, desc, 0);
+    ASSERT_TRUE(pair.valid());
+    ASSERT_EQ(suppleSetCapacity(own.handle(), pair.direct.group(), 5), SUPPLE_OK);
+    pair.run();
+    Compared anew;
+    anew.add(pair.stored, evaluator.evaluate(pair.direct, 2), 1);
+    anew.expectSame("another capacity");
+
+    SuppleGroupDesc follower = desc;
+    follower.capacity = 0;
+    follower.instancesOf = pair.stored.group();
+    follower.flags = SUPPLE_GROUP_DIRECT;
+    Crowd following(own, follower);
+    ASSERT_TRUE(following.valid());
+    const SuppleGroup both[] = {pair.stored.group(), following.group()};
+    own.run(both);
+    Compared followed;
+    followed.add(pair.stored, evaluator.evaluate(following, 2), 1);
+    followed.expectSame("a follower");
+}
+
+/// Against differences of positions: along the first side of quads, and across from it inside of bicubic ones.
+TEST_F(Direct, HasTheDerivativesOfItsParameters) {
+    constexpr uint32_t kRate = 32, kSide = kRate + 1;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    Evaluator positions(own.device(), false), derivatives(own.device(), false, direct_comp_DERIVATIVES);
+    std::set<uint32_t> classes;
+    const Subject all[] = {{"jack", SUPPLE_SCHEME_PM, perturbed(jack(), 0.02f, 4)},
+                           {"jack, p-rep", SUPPLE_SCHEME_PREP, perturbed(jack(), 0.02f, 4)},
+                           {"torus", SUPPLE_SCHEME_PM, perturbed(torus(8, 5), 0.02f, 5)}};
+    for (const Subject& subject : all) {
+        SuppleGroupDesc desc{};
+        desc.asset = own.createAsset(subject.cage);
+        desc.capacity = 1;
+        desc.scheme = subject.scheme;
+        desc.rate = kRate;
+        Crowd direct(own, Pair::withFlag(desc));
+        ASSERT_TRUE(direct.valid());
+        direct.pose(direct.spawn(), SUPPLE_BIND_POSE, 0.0, glm::mat4(1.0f));
+        own.run(direct.group());
+        const std::vector<glm::vec3> p = positions.evaluate(direct, 1), d = derivatives.evaluate(direct, 1);
+        const SuppleDirectOutput from = directOutput(direct);
+        for (uint32_t r = 0; r < from.rangeCount; ++r) {
+            classes.insert(from.ranges[r].patchClass);
+            const auto at = [&](uint32_t i, uint32_t j) { return 2 * (from.ranges[r].firstVertex + j * kSide + i); };
+            const auto slope = [&](size_t a, size_t b) { return 0.5f * kRate * (p[b] - p[a]); };
+            for (uint32_t i = 1; i < kRate; ++i) {
+                EXPECT_LT(glm::distance(d[at(i, 0)], slope(at(i - 1, 0), at(i + 1, 0))), 0.02f) << r << " " << i;
+            }
+            for (uint32_t j = 1; j < kRate && from.ranges[r].patchClass <= SUPPLE_PATCH_PERTURBED; ++j) {
+                EXPECT_LT(glm::distance(d[at(5, j) + 1], slope(at(5, j - 1), at(5, j + 1))), 0.02f) << r << " " << j;
+                EXPECT_LT(glm::distance(d[at(5, j)], slope(at(4, j), at(6, j))), 0.02f) << r << " " << j;
+            }
+        }
+    }
+    EXPECT_EQ(classes, (std::set<uint32_t>{SUPPLE_PATCH_REGULAR, SUPPLE_PATCH_PERTURBED, SUPPLE_PATCH_P4}));
+}
+
+/// A sword of polygons in the hand of a P_m character.
+TEST_F(Direct, LeavesPartsOfOtherSchemesTheirVertices) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    Evaluator evaluator(own.device(), true);
+    std::vector<SuppleScheme> schemes(10, SUPPLE_SCHEME_PM);
+    schemes.back() = SUPPLE_SCHEME_POLYGONS;
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kWren);
+    desc.capacity = 2;
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.rate = 2;
+    desc.partSchemes = schemes.data();
+    desc.partSchemeCount = static_cast<uint32_t>(schemes.size());
+    Pair pair(own, desc, 0);
+    ASSERT_TRUE(pair.valid());
+    pair.run();
+    EXPECT_EQ(pair.direct.output(0).surface.tessellation, SUPPLE_TESSELLATION_DIRECT);
+    EXPECT_EQ(pair.direct.output(1).surface.tessellation, SUPPLE_TESSELLATION_INDEXED_MESH);
+    Compared compared;
+    compared.add(pair.stored, evaluator.evaluate(pair.direct, 2), 1);
+    compared.expectSame("all but the sword");
+    const auto sword = [](const Crowd& crowd) {
+        const std::vector<std::byte> all = crowd.slotBytes(crowd.output(1).streams.vertices, 1);
+        const uint32_t stride = crowd.output(1).streams.vertices.stride;
+        std::vector<std::byte> positions;
+        for (size_t v = 0; v < crowd.output(1).grid.vertexCount; ++v) {
+            const auto at = all.begin() + static_cast<ptrdiff_t>(v * stride);
+            positions.insert(positions.end(), at, at + 12);
+        }
+        return positions;
+    };
+    EXPECT_FALSE(sword(pair.direct).empty());
+    EXPECT_EQ(sword(pair.direct), sword(pair.stored));
+}
+
+/// Its coefficients are memory that goes while nobody is drawn (SuppleGroupDesc.keepUnseenFrames).
+TEST_F(Direct, GivesItsCoefficientsBack) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    Evaluator evaluator(own.device(), false);
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kPipQuads);
+    desc.capacity = 2;
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.rate = 2;
+    desc.keepUnseenFrames = 1;
+    Crowd direct(own, Pair::withFlag(desc));
+    ASSERT_TRUE(direct.valid());
+    const SuppleInstance instance = direct.spawn();
+    direct.pose(instance, 0, 0.4, glm::mat4(1.0f));
+    own.run(direct.group());
+    const std::vector<glm::vec3> before = evaluator.evaluate(direct, 1);
+    direct.setVisible(instance, false);
+    for (uint32_t frame = 0; frame < 5; ++frame) {
+        own.run(direct.group());
+    }
+    EXPECT_EQ(directOutput(direct).coefficients.buffer, VK_NULL_HANDLE);
+    EXPECT_EQ(directOutput(direct).coefficients.size, 0u);
+    EXPECT_NE(directOutput(direct).tables.buffer, VK_NULL_HANDLE);
+    direct.setVisible(instance, true);
+    own.run(direct.group());
+    EXPECT_EQ(evaluator.evaluate(direct, 1), before);
+}
+
+SuppleMemoryUse memoryOf(const Crowd& crowd) {
+    SuppleMemoryUse use{};
+    use.structSize = sizeof use;
+    EXPECT_EQ(suppleGetGroupMemory(crowd.context().handle(), crowd.group(), &use), SUPPLE_OK);
+    return use;
+}
+
+TEST_F(Direct, HasNoMemoryForVertices) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kPipQuads);
+    desc.capacity = 10;
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.rate = 8;
+    desc.flags = SUPPLE_GROUP_ATTRIBUTES | SUPPLE_GROUP_BOUNDS | SUPPLE_GROUP_PATCHES;
+    Pair pair(own, desc, 0);
+    ASSERT_TRUE(pair.valid());
+    pair.run();
+    const SuppleMemoryUse stored = memoryOf(pair.stored), direct = memoryOf(pair.direct);
+    EXPECT_GT(stored.vertices, 10'000'000u);
+    EXPECT_EQ(direct.vertices, 0u);
+    EXPECT_EQ(direct.coefficients, stored.coefficients);
+    EXPECT_EQ(direct.streams, stored.streams);
+    EXPECT_LT(direct.tables, stored.tables + 200'000u) << "records once more, and parameters";
+    EXPECT_EQ(pair.direct.output().streams.vertices.buffer, VK_NULL_HANDLE);
+    // Attributes, coefficients for inspection and boxes are what they are.
+    EXPECT_EQ(pair.direct.read(pair.direct.output().streams.attributes),
+              pair.stored.read(pair.stored.output().streams.attributes));
+    const auto coefficients = [](const Crowd& crowd) {
+        std::vector<std::byte> all = crowd.slotBytes(crowd.output().surface.patchCoefficients, 1);
+        all.resize(size_t{16} * 16); // of the first patch, which is bicubic
+        return all;
+    };
+    EXPECT_EQ(coefficients(pair.direct), coefficients(pair.stored));
+    SuppleBufferRange boxes[2]{};
+    EXPECT_EQ(suppleGetInstanceBounds(own.handle(), pair.stored.group(), &boxes[0]), SUPPLE_OK);
+    EXPECT_EQ(suppleGetInstanceBounds(own.handle(), pair.direct.group(), &boxes[1]), SUPPLE_OK);
+    EXPECT_EQ(pair.stored.slotBytes(boxes[0], 1), pair.direct.slotBytes(boxes[1], 1));
+}
+
+/// Draws a group, whatever it has.
+class Drawing {
+public:
+    static constexpr uint32_t kSide = 256;
+
+    explicit Drawing(host::Device& device)
+        : device_(device),
+          target_(std::move(*host::DrawTarget::create(device, {kSide, kSide}, VK_SAMPLE_COUNT_1_BIT))) {}
+
+    host::Picture stored(const Crowd& crowd) {
+        const host::GroupOutput output = crowd.output();
+        const VkDescriptorSetLayout layout =
+            *host::createSetLayout(device_, {{0, kStorage, kVertex}, {1, kStorage, kVertex}});
+        host::DescriptorPool pool = std::move(*host::DescriptorPool::create(device_, 1));
+        const VkDescriptorSet set = *pool.allocate(layout);
+        pool.write(set, {host::storageBuffer(0, output.grid.rates[0].instances),
+                         host::storageBuffer(1, output.streams.vertices)});
+        return draw(output.grid, layout, set, ranges_vert,
+                    [&](uint32_t r) { return StoredPush{.range = shaderRange(output.grid, r)}; });
+    }
+    host::Picture direct(const Crowd& crowd, bool texels) {
+        const host::GroupOutput output = crowd.output();
+        const SuppleDirectOutput from = directOutput(crowd);
+        DirectSet set(device_, kVertex, texels);
+        set.write(output.grid.rates[0].instances, from,
+                  output.grid.rates[0].instances.buffer); // the fourth is not read
+        return draw(output.grid, set.layout(), set.set(),
+                    texels ? std::span<const uint32_t>(direct_vert_SUPPLE_PATCH_TEXELS)
+                           : std::span<const uint32_t>(direct_vert),
+                    [&](uint32_t r) { return PicturePush{.direct = from.ranges[r]}; });
+    }
+
+private:
+    static constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
+
+    template <class PushOf>
+    host::Picture draw(const SuppleGridOutput& grid, VkDescriptorSetLayout setLayout, VkDescriptorSet set,
+                       std::span<const uint32_t> shader, PushOf&& pushOf) {
+        using Push = decltype(pushOf(0u));
+        host::GraphicsDesc desc;
+        desc.name = "test direct";
+        desc.layout = *host::createPipelineLayout(device_, {setLayout}, sizeof(Push), kVertex);
+        desc.vertexShader = shader;
+        desc.fragmentShader = prop_frag;
+        desc.colors = {host::kPictureFormat};
+        desc.depth = host::kDepthFormat;
+        const VkPipeline pipeline = *host::createGraphicsPipeline(device_, desc);
+        constexpr VkImageLayout kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+        const Status drawn = device_.submitAndWait([&](VkCommandBuffer commands) {
+            const SuppleSyncScope any = kAnyUse;
+            host::imageBarrier(commands, target_.color(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kColor, any});
+            host::imageBarrier(commands, target_.depth(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kDepth, any});
+            const VkRenderingAttachmentInfo color = host::attachment(target_.color(), kColor);
+            host::beginRendering(commands, target_.extent(), {&color, 1},
+                                 host::attachment(target_.depth(), kDepth, {.depthStencil = {1.0f, 0}}));
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, desc.layout, 0, 1, &set, 0, nullptr);
+            vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset, VK_INDEX_TYPE_UINT16);
+            for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
+                const Push push = pushOf(r);
+                vkCmdPushConstants(commands, desc.layout, kVertex, 0, sizeof(push), &push);
+                vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,
+                                         grid.indirect.offset + VkDeviceSize{r} * grid.indirect.stride, 1, 0);
+            }
+            vkCmdEndRendering(commands);
+            host::imageBarrier(commands, target_.color(), {kColor, any}, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, any});
+        });
+        EXPECT_TRUE(drawn.ok());
+        Result<host::Picture> picture = host::readPicture(device_, target_.color());
+        EXPECT_TRUE(picture.ok());
+        return picture.ok() ? std::move(*picture) : host::Picture::blank(kSide, kSide);
+    }
+
+    host::Device& device_;
+    host::DrawTarget target_;
+};
+
+/// In a vertex shader: the same positions make the same picture, to the last pixel. Some instances hide a part.
+TEST_F(Direct, DrawsThePictureOfStoredVertices) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb"); // three materials
+    desc.capacity = 3;
+    desc.scheme = SUPPLE_SCHEME_PM;
+    desc.rate = 5;
+    Crowd stored(own, desc), direct(own, Pair::withFlag(desc));
+    ASSERT_TRUE(stored.valid() && direct.valid());
+    for (Crowd* crowd : {&stored, &direct}) {
+        for (uint32_t i = 0; i < desc.capacity; ++i) {
+            const SuppleInstance instance = crowd->spawn();
+            crowd->pose(instance, SUPPLE_BIND_POSE, 0.0,
+                        glm::translate(glm::mat4(1.0f), {0.8f * static_cast<float>(i) - 0.8f, 0.0f, 0.0f}));
+            EXPECT_EQ(suppleSetPartVisible(own.handle(), instance, 0, i == 1 ? 0 : 1), SUPPLE_OK);
+        }
+        own.run(crowd->group());
+    }
+    Drawing drawing(own.device());
+    const host::Picture wanted = drawing.stored(stored), blank = host::Picture::blank(Drawing::kSide, Drawing::kSide);
+    EXPECT_NE(wanted.rgba, blank.rgba);
+    EXPECT_EQ(drawing.direct(direct, true).rgba, wanted.rgba);
+    EXPECT_EQ(drawing.direct(direct, false).rgba, wanted.rgba);
+}
+
+class DirectRefusals : public CrowdContexts {
+protected:
+    void expectRefused(SuppleGroupDesc desc, SuppleResult wanted, std::string_view word) {
+        CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+        desc.structSize = sizeof desc;
+        desc.asset = own.asset(kPipQuads);
+        desc.capacity = 1;
+        desc.rate = 4;
+        desc.flags |= SUPPLE_GROUP_DIRECT;
+        SuppleGroup group{};
+        EXPECT_EQ(suppleCreateGroup(own.handle(), &desc, &group), wanted) << word;
+        const std::vector<LogLine> lines = own.takeLines();
+        ASSERT_FALSE(lines.empty()) << word;
+        EXPECT_NE(lines.back().text.find(word), std::string::npos) << lines.back().text;
+    }
+};
+
+TEST_F(DirectRefusals, NameWhatCannotBe) {
+    expectRefused({.scheme = SUPPLE_SCHEME_CATMULL_CLARK}, SUPPLE_ERROR_ARGUMENT, "those of Catmull-Clark cannot");
+    expectRefused({.scheme = SUPPLE_SCHEME_LOOP}, SUPPLE_ERROR_ARGUMENT, "those of Loop cannot");
+    expectRefused({.scheme = SUPPLE_SCHEME_BLEND}, SUPPLE_ERROR_ARGUMENT, "those of blend cannot");
+    expectRefused({.scheme = SUPPLE_SCHEME_POLYGONS}, SUPPLE_ERROR_ARGUMENT, "those of polygons cannot");
+    expectRefused({.scheme = SUPPLE_SCHEME_FRAGMENTS}, SUPPLE_ERROR_ARGUMENT, "those of fragments cannot");
+    expectRefused({.scheme = SUPPLE_SCHEME_CAGE}, SUPPLE_ERROR_ARGUMENT, "a cage has no patches");
+    for (const uint32_t flag : {uint32_t{SUPPLE_GROUP_MOTION}, uint32_t{SUPPLE_GROUP_INDEXED_MESH},
+                                uint32_t{SUPPLE_GROUP_TANGENTS | SUPPLE_GROUP_ATTRIBUTES}}) {
+        expectRefused({.flags = flag, .scheme = SUPPLE_SCHEME_PM}, SUPPLE_ERROR_ARGUMENT,
+                      "SUPPLE_GROUP_DIRECT goes with");
+    }
+}
+
+TEST_F(DirectRefusals, NameAGroupThatStoresItsVertices) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    SuppleGroupDesc desc{};
+    desc.asset = own.asset(kPipQuads);
+    desc.capacity = 1;
+    desc.scheme = SUPPLE_SCHEME_PM;
+    Crowd stored(own, desc);
+    SuppleDirectOutput out{};
+    out.structSize = sizeof out;
+    EXPECT_EQ(suppleGetDirectOutput(own.handle(), stored.group(), 0, &out), SUPPLE_ERROR_ARGUMENT);
+    EXPECT_NE(own.takeLines().back().text.find("SUPPLE_GROUP_DIRECT"), std::string::npos);
+}
+
+} // namespace
+} // namespace supple::test
