@@ -61,7 +61,7 @@ private:
     void mix(uint32_t slot, float way, const skinning::InstancePose& now); ///< into mixed_
     void endWindow();
     [[nodiscard]] VkDeviceSize stepBytes() const { return layout_.stride * gpu::kVec4Bytes; }
-    [[nodiscard]] VkDeviceSize poseBytes() const { return shared::kMostSpringSteps * stepBytes(); } ///< of an instance
+    [[nodiscard]] VkDeviceSize poseBytes() const { return shared::kMostDueSteps * stepBytes(); } ///< of an instance
 
     const gpu::Device* device_ = nullptr;
     skinning::PoseLayout layout_; ///< of steps

@@ -72,7 +72,7 @@ Status Playback::create(const Desc& desc) {
         rates_ = UpdateRates(desc.capacity);
     }
     if (desc.room.hasSteps()) {
-        springs_ = SpringClock(desc.capacity, desc.room.cloths);
+        clock_ = StepClock(desc.capacity, desc.room.cloths);
     }
     if (desc.room.springs) {
         bounds_.setSwinging(table.swinging);
@@ -243,7 +243,7 @@ void Playback::reset(uint32_t slot) {
     own.setBindPose();
     bounds_.setBindPose(slot);
     rates_.reset(slot);
-    springs_.settle(slot);
+    clock_.settle(slot);
     detail_.forget(slot);
     if (takesModifiers()) {
         bounds_.setTurned(slot, {}, false, 0.0);
@@ -320,7 +320,7 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const Tran
 }
 
 bool Playback::keepBefore(uint32_t slot) {
-    const bool keeps = springs_.change(slot, time_);
+    const bool keeps = clock_.change(slot, time_);
     if (keeps) {
         states_.keepBefore(slot);
     }
@@ -329,7 +329,7 @@ bool Playback::keepBefore(uint32_t slot) {
 
 bool Playback::travels(uint32_t slot) {
     const auto asks = [](std::span<const uint32_t> words) { return (words[1] & kStateTravels) != 0; };
-    return asks(states_.words(slot)) || (springs_.hasBefore(slot) && asks(states_.before(slot)));
+    return asks(states_.words(slot)) || (clock_.hasBefore(slot) && asks(states_.before(slot)));
 }
 
 glm::mat4 Playback::placement(uint32_t slot) const {
@@ -397,7 +397,7 @@ void Playback::setTransform(uint32_t slot, const glm::mat4& transform) {
 void Playback::setPosition(uint32_t slot, const glm::dvec3& position) {
     positions_[slot] = position;
     keepBefore(slot);
-    springs_.place(slot, time_);
+    clock_.place(slot, time_);
     place(slot);
 }
 
@@ -486,7 +486,7 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
 void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match) {
     time_ = other.time_;
     origin_ = other.origin_;
-    springs_.takeWind(other.springs_);
+    clock_.takeWind(other.clock_);
     masks_.takeOver(other.masks_, match);
     if (match.same) {
         adds_ = other.adds_;
@@ -499,7 +499,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         bounds_.takeOver(other.bounds_, count);
         rates_.takeOver(other.rates_, count);
         steps_ = other.steps_;
-        springs_.takeOver(other.springs_, count);
+        clock_.takeOver(other.clock_, count);
         detail_.takeOver(other.detail_, count);
         springState_.takeOver(other.springState_, count);
     }
@@ -523,7 +523,7 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
 
 void Playback::cancelFrame(uint64_t frame) {
     springState_.cancelFrame(frame);
-    springs_.cancelFrame(frame);
+    clock_.cancelFrame(frame);
     states_.cancelFrame(frame);
     masks_.cancelFrame(frame);
     if (list_.recordedIn(frame)) {
@@ -580,21 +580,21 @@ void Playback::listPose(uint32_t slot, uint32_t slotInWindow) {
 void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
     list_.addPose(slotInWindow, 0, time_);
     if (states_.state(slot).inBindPose()) {
-        springs_.settle(slot);
+        clock_.settle(slot);
         return;
     }
     const float fade = detail_.fade(slot);
     if (fade == 0.0f) {
         return;
     }
-    const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
-    const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
+    const StepPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
+    const StepClock::Due due = clock_.take(slot, frame, time_, place, travels(slot));
     list_.addSteps(slotInWindow, due, fade);
     for (uint32_t k = 0; k < due.count; ++k) {
         const std::span<const uint32_t> played = due.before[k] ? states_.before(slot) : states_.words(slot);
         const bool travels = (played[1] & kStateTravels) != 0;
         list_.flagStep(k, (due.before[k] ? kPosedBefore : 0) | (travels ? kPosedTravels : 0));
-        firstStep_ = std::min(firstStep_, springTime(due.first + k));
+        firstStep_ = std::min(firstStep_, timeOfStep(due.first + k));
     }
 }
 
@@ -646,7 +646,7 @@ PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& win
         push.instanceCount = shownAlone ? own.shown : part == Part::springs ? own.swinging.count : run.count;
         push.times = run.values;
         push.shown = own.shown;
-        push.springWords = own.swinging.first;
+        push.stepWords = own.swinging.first;
     }
     return push;
 }

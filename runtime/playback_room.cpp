@@ -54,11 +54,11 @@ uint32_t springStride(const skinning::ClipTable& table, const StateRoom& room) {
 } // namespace
 
 uint32_t posesInFrame(const StateRoom& room) {
-    return room.updateRates ? 2 : room.hasSteps() ? 1 + kMostSpringSteps : 1;
+    return room.updateRates ? 2 : room.hasSteps() ? 1 + kMostDueSteps : 1;
 }
 
 uint32_t unshownPoses(const StateRoom& room) {
-    return room.updateRates ? kPoseEnds : room.soft ? kMostSpringSteps : 0;
+    return room.updateRates ? kPoseEnds : room.soft ? kMostDueSteps : 0;
 }
 
 uint32_t unshownStride(const skinning::PoseLayout& layout, const StateRoom& room) {

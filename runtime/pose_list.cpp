@@ -7,7 +7,7 @@ namespace supple::runtime {
 PoseList::PoseList(uint32_t capacity, uint32_t windowCount, const StateRoom& room)
     : windows_(windowCount), bytes_(VkDeviceSize{capacity} * wordsOfInstance(room) * sizeof(uint32_t)) {
     const size_t instances = isTaken() ? capacity : 0, swinging = room.hasSteps() ? instances : 0;
-    const size_t mixed = instances - swinging, steps = swinging * shared::kMostSpringSteps;
+    const size_t mixed = instances - swinging, steps = swinging * shared::kMostDueSteps;
     words_.reserve(instances * wordsOfInstance(room));
     times_.reserve(2 * (2 * mixed + swinging + steps));
     mixes_.reserve(mixed);
@@ -27,17 +27,17 @@ void PoseList::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t 
     staging_ = staging.add({"supple list of poses staging", bytes_ * framesInFlight, VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
 }
 
-void PoseList::addSteps(uint32_t slot, const SpringClock::Due& due, float fade) {
+void PoseList::addSteps(uint32_t slot, const StepClock::Due& due, float fade) {
     using namespace shared;
-    const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
-    const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
-    const uint32_t begins = due.settles ? kSpringSettles | due.skipped << kSpringSkippedShift : 0;
+    const uint32_t jump = due.jump != StepClock::kNone ? (due.jump + 1) << kStepJumpShift : 0;
+    const uint32_t number = (static_cast<uint32_t>(due.first) & (kStepNumbers - 1)) << kStepNumberShift;
+    const uint32_t begins = due.settles ? kStepSettles | due.skipped << kStepSkippedShift : 0;
     const bool moves = due.moves || due.blows || due.hasDown;
     swinging_.push_back({slot, static_cast<uint32_t>(steps_.size()), due.count | jump | number | begins,
                          std::bit_cast<uint32_t>(due.part), moves ? static_cast<uint32_t>(moves_.size()) + 1 : 0,
                          static_cast<uint32_t>(times_.size() / 2) - 1, std::bit_cast<uint32_t>(fade)});
     for (uint32_t k = 0; k < due.count; ++k) {
-        const skinning::SplitTime split = skinning::splitTime(springTime(due.first + k));
+        const skinning::SplitTime split = skinning::splitTime(timeOfStep(due.first + k));
         steps_.push_back(slot);
         stepTimes_.push_back(std::bit_cast<uint32_t>(split.high));
         stepTimes_.push_back(std::bit_cast<uint32_t>(split.low));
@@ -47,7 +47,7 @@ void PoseList::addSteps(uint32_t slot, const SpringClock::Due& due, float fade) 
     }
 }
 
-void PoseList::addMove(const SpringClock::Due& due, uint32_t step) {
+void PoseList::addMove(const StepClock::Due& due, uint32_t step) {
     const auto add = [&](const auto& vector) {
         for (int i = 0; i < vector.length(); ++i) {
             moves_.push_back(std::bit_cast<uint32_t>(vector[i]));
@@ -80,8 +80,8 @@ void PoseList::endWindow(uint32_t window) {
 void PoseList::endSwinging(Window& own) {
     own.swinging.first = static_cast<uint32_t>(words_.size());
     own.swinging.count = static_cast<uint32_t>(swinging_.size());
-    const uint32_t moves = own.swinging.first + own.swinging.count * shared::kSpringWords;
-    for (std::array<uint32_t, shared::kSpringWords>& record : swinging_) {
+    const uint32_t moves = own.swinging.first + own.swinging.count * shared::kStepWords;
+    for (std::array<uint32_t, shared::kStepWords>& record : swinging_) {
         constexpr size_t kMoves = 4;
         record[kMoves] += record[kMoves] != 0 ? moves - 1 : 0;
         words_.insert(words_.end(), record.begin(), record.end());

@@ -3,7 +3,7 @@
 
 #include "gpu/buffer_plan.h"
 #include "runtime/playback_room.h"
-#include "runtime/spring_clock.h"
+#include "runtime/step_clock.h"
 #include "shaders/shared/pose.h"
 #include "skinning/split_time.h"
 
@@ -32,7 +32,7 @@ public:
     static constexpr uint32_t kWordsOfInstance = 2 * 3 + 2;
     /// With steps: what is shown, and each step with its time and its move.
     static constexpr uint32_t kWordsOfSwinging =
-        3 + shared::kSpringWords + shared::kMostSpringSteps * (3 + shared::kMoveWords);
+        3 + shared::kStepWords + shared::kMostDueSteps * (3 + shared::kMoveWords);
 
     /// Of an instance of a group with update rates or steps; of others there is no list.
     [[nodiscard]] static constexpr uint32_t wordsOfInstance(const StateRoom& room) {
@@ -63,7 +63,7 @@ public:
     }
     /// Behind addPose() of the instance, with what is shown: its steps. Their flags are 0. `fade`: how much is shown of
     /// what they do.
-    void addSteps(uint32_t slot, const SpringClock::Due& due, float fade = 1.0f);
+    void addSteps(uint32_t slot, const StepClock::Due& due, float fade = 1.0f);
     /// Step `k` of the instance whose steps were added last: kPosedBefore, kPosedTravels.
     void flagStep(uint32_t k, uint32_t flags) { steps_[swinging_.back()[1] + k] |= flags; }
     void endWindow(uint32_t window);
@@ -75,7 +75,7 @@ public:
     struct Window {
         Run poses, mixes;
         uint32_t shown = 0; ///< of the poses, before steps
-        Run swinging;       ///< kSpringWords for each
+        Run swinging;       ///< kStepWords for each
     };
     [[nodiscard]] const Window& window(uint32_t window) const { return windows_[window]; }
     // In all windows.
@@ -90,7 +90,7 @@ public:
     [[nodiscard]] bool recordedIn(uint64_t frame) const { return isTaken() && frame_ == frame; }
 
 private:
-    void addMove(const SpringClock::Due& due, uint32_t step);
+    void addMove(const StepClock::Due& due, uint32_t step);
     void endSwinging(Window& own);
     /// The word where they begin. Leaves none.
     uint32_t append(std::vector<uint32_t>& values);
@@ -98,7 +98,7 @@ private:
     std::vector<uint32_t> words_;
     // What the window has that is being listed:
     std::vector<uint32_t> times_, mixes_, parts_, steps_, stepTimes_, moves_;
-    std::vector<std::array<uint32_t, shared::kSpringWords>> swinging_;
+    std::vector<std::array<uint32_t, shared::kStepWords>> swinging_;
     std::vector<Window> windows_;
     uint32_t poses_ = 0, mixed_ = 0, swung_ = 0;
 

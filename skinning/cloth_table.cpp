@@ -106,7 +106,7 @@ private:
     [[nodiscard]] uint32_t stateElements() const { return kClothElements + (own_.volume ? 1 : 0); }
     [[nodiscard]] uint32_t next() const { return countOf(table_.words) / 4; }
     [[nodiscard]] static uint32_t roundsOf(uint32_t items) { return (items + kLanes - 1) / kLanes; }
-    [[nodiscard]] double substep() const { return 1.0 / (kSpringSteps * own_.substeps); }
+    [[nodiscard]] double substep() const { return 1.0 / (kStepsASecond * own_.substeps); }
     [[nodiscard]] double apart(uint32_t a, uint32_t b) const { return glm::distance(positions_[a], positions_[b]); }
     static uint32_t word(double value) { return bits(static_cast<float>(value)); }
 
@@ -295,7 +295,7 @@ private:
         }
         std::sort(lengths.begin(), lengths.end());
         const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2], h = substep();
-        const auto kept = [&](float lost) { return std::pow(1.0 - static_cast<double>(lost), kSpringSteps * h); };
+        const auto kept = [&](float lost) { return std::pow(1.0 - static_cast<double>(lost), kStepsASecond * h); };
         set(head + 3, {word(h), word(kept(own_.drag)), word(1.0 - kept(own_.air)), word(0.25 * median)});
         set(head + 4, {word(1.0 / h), word(static_cast<double>(own_.gravity) * h), word(volume_),
                        word(kVolumeGives * volumeGradient())});

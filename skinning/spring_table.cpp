@@ -16,7 +16,7 @@ namespace {
 using namespace shared;
 using cage::kNone;
 
-constexpr double kStep = 1.0 / kSpringSteps;
+constexpr double kStep = 1.0 / kStepsASecond;
 constexpr double kLeafTail = 0.07;     // metres: what VRM 0.x gives a bone without children
 constexpr double kShortestTail = 1e-6; // in model space
 

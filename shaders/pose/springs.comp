@@ -82,16 +82,16 @@ void runStep(SpringTables all, SpringStep now, uint lane, uint lanes) {
 void main() {
     uint id = kWide ? workgroupIndex() : invocationIndex();
     listed = id < push.instanceCount;
-    uint words = push.springWords + kSpringWords * min(id, push.instanceCount - 1u);
+    uint words = push.stepWords + kStepWords * min(id, push.instanceCount - 1u);
     uint slot = slotOf(instanceWord(words)), first = push.shown + instanceWord(words + 1u);
     uint steps = instanceWord(words + 2u), moves = instanceWord(words + 4u);
     uint lane = kWide ? gl_LocalInvocationID.x : 0u, lanes = kWide ? gl_WorkGroupSize.x : 1u;
     SpringTables all = springTables();
     tails = slot * push.springStride;
     SpringStep now;
-    now.settles = (steps & kSpringSettles) != 0u;
-    uint jump = (steps >> kSpringJumpShift) & 15u;
-    steps = min(steps & 255u, kMostSpringSteps);
+    now.settles = (steps & kStepSettles) != 0u;
+    uint jump = (steps >> kStepJumpShift) & 15u;
+    steps = min(steps & 255u, kMostDueSteps);
     precise Affine before = rowsOf(spring(0u), spring(1u), spring(2u));
     meet();
     for (uint k = 0u; k < steps; ++k) {

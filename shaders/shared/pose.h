@@ -103,8 +103,8 @@
 // then a float for each of these, the part of the way from the earlier end to the later one.
 // In groups with springs or what is soft the list has, for each window: an entry for every pose that is shown, `shown` of
 // them; an entry for each step that is due, slot | kPosedBefore if it is posed as before the last call | kPosedTravels if root motion
-// travels; from `times` on the times of all these; then kSpringWords for each instance that runs steps or shows them: (slot, the first
-// of its steps, how many | kSpringSettles, with the steps that are left out | a jump | the low 4 bits of the first one's number, the part of the way from the step
+// travels; from `times` on the times of all these; then kStepWords for each instance that runs steps or shows them: (slot, the first
+// of its steps, how many | kStepSettles, with the steps that are left out | a jump | the low 4 bits of the first one's number, the part of the way from the step
 // before the last to the last, as a float, where its moves begin or 0, its entry among those that are shown, how much is shown of
 // what steps do, as a float); moves: for each step the
 // three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled, and
@@ -210,18 +210,18 @@ SUPPLE_SHARED_CONST kUpdateSteps = 60u;      // of the grid in a second
 // Springs.
 SUPPLE_SHARED_CONST kPosedBefore = 0x40000000u;
 SUPPLE_SHARED_CONST kPosedTravels = 0x80000000u;
-SUPPLE_SHARED_CONST kSpringSteps = 60u;    // of the grid in a second
-SUPPLE_SHARED_FLOAT kSpringSeconds = 0.016666668f; // between two of them
-SUPPLE_SHARED_CONST kMostSpringSteps = 8u; // in a frame
+SUPPLE_SHARED_CONST kStepsASecond = 60u;    // of the grid in a second
+SUPPLE_SHARED_FLOAT kStepSeconds = 0.016666668f; // between two of them
+SUPPLE_SHARED_CONST kMostDueSteps = 8u; // in a frame
 // Rounds of an invocation's loops in a step: eight must not come near the 65,536 where some drivers end it.
 SUPPLE_SHARED_CONST kMostStepWork = 7000u;
-SUPPLE_SHARED_CONST kSpringWords = 7u;
+SUPPLE_SHARED_CONST kStepWords = 7u;
 SUPPLE_SHARED_CONST kMoveWords = 18u;
-SUPPLE_SHARED_CONST kSpringSettles = 0x80000000u; // tails at rest in the pose
-SUPPLE_SHARED_CONST kSpringJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
-SUPPLE_SHARED_CONST kSpringNumberShift = 12u; // 4 bits: the last of the first step's number
-SUPPLE_SHARED_CONST kSpringNumbers = 16u;     // that these tell apart: more than a frame has steps
-SUPPLE_SHARED_CONST kSpringSkippedShift = 16u; // 15 bits, beside kSpringSettles: steps that are left out
+SUPPLE_SHARED_CONST kStepSettles = 0x80000000u; // tails at rest in the pose
+SUPPLE_SHARED_CONST kStepJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
+SUPPLE_SHARED_CONST kStepNumberShift = 12u; // 4 bits: the last of the first step's number
+SUPPLE_SHARED_CONST kStepNumbers = 16u;     // that these tell apart: more than a frame has steps
+SUPPLE_SHARED_CONST kStepSkippedShift = 16u; // 15 bits, beside kStepSettles: steps that are left out
 SUPPLE_SHARED_CONST kMostSkippedSteps = 0x7FFFu; // nine minutes; more count as these
 SUPPLE_SHARED_CONST kSpringHeadElements = 2u;
 SUPPLE_SHARED_CONST kSpringNodeElements = 4u;
@@ -295,7 +295,7 @@ struct PosePush {
     uint springs;      // section of the clip table
     uint springScratch;
     uint springStride;
-    uint springWords;  // word of the list where instances that swing begin
+    uint stepWords;  // word of the list where instances that swing begin
     uint drivers;      // section of the clip table; 0: no morph weights follow from joints
 };
 

@@ -3,7 +3,7 @@
 // Jiggles' table (uvec4 elements), two for every vertex that jiggles: (cage vertex; weight, limit as float bits; 0);
 // (exp(h [[0, 1], [-k, -c]]) of a step h, row after row, as float bits), by which a spring goes on for a step
 //
-// Their state (vec4 elements, one run of `stateStride` an instance): kSpringNumbers times three rows, where root motion had taken the
+// Their state (vec4 elements, one run of `stateStride` an instance): kStepNumbers times three rows, where root motion had taken the
 // instance at a step, by the low 4 bits of the step's number; then kJiggleElements for every vertex:
 //   (offset from the goal; x of `before`), (its speed; y of `before`), (goal; z of `before`), (speed of the goal; what is known)
 // The goal is where joints have the vertex in the step's pose; `before` is the offset a step earlier. Known is nothing (0), the
@@ -45,7 +45,7 @@ SUPPLE_SHARED_CONST kSoftPlaceBinding = 8u; // the scratch memory of the pose pa
 SUPPLE_SHARED_CONST kSoftPlaceTexelBinding = 9u;
 
 SUPPLE_SHARED_CONST kJiggleTableElements = 2u;
-SUPPLE_SHARED_CONST kJiggleVertices = 48u; // where they begin in an instance's run: behind 3 * kSpringNumbers
+SUPPLE_SHARED_CONST kJiggleVertices = 48u; // where they begin in an instance's run: behind 3 * kStepNumbers
 SUPPLE_SHARED_CONST kJiggleElements = 4u;
 
 SUPPLE_SHARED_CONST kClothHeadElements = 6u;

@@ -76,8 +76,8 @@ void keepStateRows(uint i, Affine rows) {
 
 void runSteps(ClothTables all, uint words) {
     uint first = instanceWord(words + 1u), flags = instanceWord(words + 2u), moves = instanceWord(words + 4u);
-    uint steps = min(flags & 255u, kMostSpringSteps), jump = (flags >> kSpringJumpShift) & 15u;
-    bool settles = (flags & kSpringSettles) != 0u, skips = ((flags >> kSpringSkippedShift) & kMostSkippedSteps) != 0u;
+    uint steps = min(flags & 255u, kMostDueSteps), jump = (flags >> kStepJumpShift) & 15u;
+    bool settles = (flags & kStepSettles) != 0u, skips = ((flags >> kStepSkippedShift) & kMostSkippedSteps) != 0u;
     precise Affine before = stateRows(all.state), moveBefore = stateRows(all.state + 3u);
     float known = clothState(all.state + 6u).x;
     for (uint k = 0u; k < steps; ++k) {
@@ -103,7 +103,7 @@ void runSteps(ClothTables all, uint words) {
 void main() {
     uint id = workgroupIndex();
     if (id >= push.count * push.instanceCount) return;
-    uint entry = id / push.count, words = push.swinging + kSpringWords * entry;
+    uint entry = id / push.count, words = push.swinging + kStepWords * entry;
     uint slot = slotOf(instanceWord(words));
     ClothTables all = clothTables(id - entry * push.count);
     states = slot * push.stateStride;

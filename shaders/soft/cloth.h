@@ -67,7 +67,7 @@ bool isNear(vec3 way, float squaresBelow) { return dot3(way, way) < squaresBelow
 
 // The speed of the model's frame at a point of it.
 vec3 frameSpeed(Affine move, vec3 at) {
-    SUPPLE_PRECISE vec3 speed = (at - through(move, at)) * float(kSpringSteps);
+    SUPPLE_PRECISE vec3 speed = (at - through(move, at)) * float(kStepsASecond);
     return speed;
 }
 // The speed in the frame that a vertex gains where the frame's motion changes: in the world it goes on as before.

@@ -1,6 +1,6 @@
 // What is soft, on the device: the words of the CPU's own steps, whatever the frame rate, and what hosts do to
 // them.
-#include "runtime/spring_clock.h"
+#include "runtime/step_clock.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/played_soft.h"
@@ -42,8 +42,8 @@ public:
 
     /// How many words of an instance's cage are others than the CPU's at a time.
     uint64_t off(uint32_t i, uint64_t frame, double time, const Floats& shown) {
-        const runtime::SpringPlace place{glm::dmat3(glm::mat3(places_[i])), glm::dvec3(places_[i][3])};
-        const runtime::SpringClock::Due due = clock_.take(i, frame, time, place, travels_[i]);
+        const runtime::StepPlace place{glm::dmat3(glm::mat3(places_[i])), glm::dvec3(places_[i][3])};
+        const runtime::StepClock::Due due = clock_.take(i, frame, time, place, travels_[i]);
         const runtime::Playback& playback = *group_.poses().playback();
         const std::span<const uint32_t> state = playback.stateOf(i);
         std::vector<glm::vec4> cage(group_.asset().character.cage.vertexCount());
@@ -60,7 +60,7 @@ public:
 private:
     runtime::Group& group_;
     skinning::DeformTable table_;
-    runtime::SpringClock clock_;
+    runtime::StepClock clock_;
     std::vector<glm::mat4> places_;
     std::vector<bool> travels_;
     std::vector<PlayedSoft> twins_;

@@ -58,10 +58,10 @@ void PlayedSoft::deformUnplaced(std::span<glm::vec4> cage) {
 }
 
 void PlayedSoft::run(std::span<const uint32_t> state, std::span<const float> masks,
-                     const runtime::SpringClock::Due& due) {
+                     const runtime::StepClock::Due& due) {
     std::vector<glm::vec4> cage(character_->cage.vertexCount());
     for (uint32_t k = 0; k < due.count; ++k) {
-        twin_.pose(state, masks, runtime::springTime(due.first + k), skinning::PoseTwin::Stands::unplaced);
+        twin_.pose(state, masks, runtime::timeOfStep(due.first + k), skinning::PoseTwin::Stands::unplaced);
         const Affine way = (state[1] & kStateTravels) != 0 ? twin_.place() : identity();
         const Affine placed = combined(rowsOf(due.rows[k][0], due.rows[k][1], due.rows[k][2]), way_);
         const Affine move = combined(undone(way), placed);
