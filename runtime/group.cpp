@@ -431,6 +431,15 @@ gpu::TaskNeeds Group::countTasks() const {
     return needs;
 }
 
+gpu::TaskNeeds Group::countEarlyTasks() const {
+    if (follows() || desc_.poseSource != SUPPLE_POSES_PLAYBACK || !instances_->room().hasSteps()) {
+        return {};
+    }
+    const uint32_t windows = listing_.windows().count(), stages = stages_.count(0);
+    const uint32_t rounds = (shared::kMostDueSteps - 1) / kStepsInRound;
+    return {rounds * windows * (Playback::kTasks + stages) + gpu::TaskDispatches::kPhases, windows * (1 + stages)};
+}
+
 gpu::MemoryUse Group::memoryUse() const {
     gpu::MemoryUse use = buffers_.use();
     use += staging_.use();

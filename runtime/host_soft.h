@@ -27,7 +27,7 @@ public:
     /// Once; this stays where it is from then on, as its planned buffers point into it.
     [[nodiscard]] Status create(const gpu::Device& device, uint32_t windowSize, uint32_t framesInFlight);
     /// What an instance takes of a buffer that is bound by windows.
-    [[nodiscard]] static VkDeviceSize windowBytes(const skinning::PoseLayout& layout, const StateRoom& room);
+    [[nodiscard]] static VkDeviceSize windowBytes(const skinning::PoseLayout& layout);
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
     // A frame: of rising instances that run steps, each begins, takes its steps in their order and ends.

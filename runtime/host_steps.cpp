@@ -64,7 +64,15 @@ void HostSteps::takeOver(const HostSteps& other, uint32_t count) {
     if (areTaken()) {
         clock_.takeOver(other.clock_, count);
         time_ = other.time_;
+        timeBefore_ = other.timeBefore_;
+        frame_ = other.frame_;
         std::copy_n(other.slots_.begin(), count, slots_.begin());
+        for (size_t i = 0; i < other.taken_.size(); ++i) {
+            if (other.taken_[i] < count) {
+                taken_.push_back(other.taken_[i]);
+                undo_.push_back(other.undo_[i]);
+            }
+        }
     }
 }
 

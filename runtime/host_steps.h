@@ -45,7 +45,7 @@ public:
 
     /// What the frame's steps have done never happens. The slots that it concerns, until the next frame.
     std::span<const uint32_t> cancelFrame(uint64_t frame);
-    /// The first `count` instances, of the same asset.
+    /// The first `count` instances, of the same asset, with what a frame that is cancelled undoes. Once.
     void takeOver(const HostSteps& other, uint32_t count);
     void takeWind(const HostSteps& other) { clock_.takeWind(other.clock_); }
 

@@ -185,10 +185,14 @@ public:
     enum class Part { locals, roots, modifiers, drivers, springs, palette, mix };
     static constexpr uint32_t kParts = 7;
     static constexpr uint32_t kTasks = kParts + 1; ///< of a window at most: with transitions locals are two
-    /// A part of the pass over the instances of a window.
-    void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const;
+    /// A part of the pass over the instances of a window. `round`: PoseList::Window::rounds.
+    void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows,
+                uint32_t round = 0) const;
     /// Whether there is anything to record of a part.
     [[nodiscard]] bool has(Part part) const;
+    /// Rounds of steps before that which is posed with what is shown.
+    [[nodiscard]] uint32_t earlyRounds() const { return hasSteps() ? list_.earlyRounds() : 0; }
+    [[nodiscard]] bool hasEarly(Part part) const;
     /// What the tasks of all parts follow from, beside windows and time; never 0.
     [[nodiscard]] uint64_t tasksMade() const;
     /// How their push constants (shared::PosePush) begin.
@@ -235,7 +239,8 @@ private:
     bool keepBefore(uint32_t slot);
     [[nodiscard]] bool travels(uint32_t slot);
     void listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow);
-    [[nodiscard]] shared::PosePush pushOf(Part part, uint32_t window, const InstanceWindows& windows) const;
+    [[nodiscard]] shared::PosePush pushOf(Part part, uint32_t window, const InstanceWindows& windows,
+                                          uint32_t round) const;
     [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
     void listPose(uint32_t slot, uint32_t slotInWindow);
     void forget(uint32_t slot); ///< what plays there, or where it stands, has changed

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace supple::runtime {
 
@@ -63,35 +65,54 @@ int64_t lastStepAt(double time) {
     return step;
 }
 
-void Wind::set(const glm::dvec3& velocity, double time) {
-    if (isAsked_ && !changed_) {
-        before_ = now_;
-        since_ = time;
-        changed_ = true;
+void Wind::Course::add(const Change& change) {
+    while (count > 0 && changes[count - 1].since >= change.since) {
+        --count; // from its time on, the later call counts
     }
-    now_ = velocity;
+    if (count == changes.size()) {
+        first = changes[0].velocity;
+        std::copy(changes.begin() + 1, changes.end(), changes.begin());
+        --count;
+    }
+    changes[count++] = change;
+}
+
+void Wind::set(const glm::dvec3& velocity, double time) {
+    if (isAsked_) {
+        course_.add({time, velocity});
+    } else {
+        course_.first = velocity;
+    }
 }
 
 void Wind::settle() {
-    const glm::dvec3 now = now_;
+    const glm::dvec3 now = course_.last();
     *this = {};
-    now_ = now;
+    course_.first = now;
+}
+
+const glm::dvec3& Wind::at(double time) const {
+    for (uint32_t i = course_.count; i > 0; --i) {
+        if (time >= course_.changes[i - 1].since) {
+            return course_.changes[i - 1].velocity;
+        }
+    }
+    return course_.first;
 }
 
 void Wind::endFrame(uint64_t frame) {
     frame_ = frame;
-    undoChanged_ = changed_;
-    undoBefore_ = before_;
-    undoSince_ = since_;
+    undo_ = course_;
+    course_.first = course_.last();
+    course_.count = 0;
     isAsked_ = true;
-    changed_ = false;
 }
 
 void Wind::cancelFrame(uint64_t frame) {
-    if (frame_ == frame && undoChanged_) {
-        changed_ = true;
-        before_ = undoBefore_;
-        since_ = undoSince_;
+    if (frame_ == frame) {
+        const Course since = std::exchange(course_, undo_);
+        std::for_each_n(since.changes.begin(), since.count, [this](const Change& change) { course_.add(change); });
+        undo_ = course_;
     }
 }
 
@@ -135,8 +156,7 @@ bool StepClock::change(uint32_t slot, double time) {
     return keeps;
 }
 
-StepPlace StepClock::placeAt(const Slot& own, double stepTime, double time, const StepPlace& place,
-                                 bool travels) {
+StepPlace StepClock::placeAt(const Slot& own, double stepTime, double time, const StepPlace& place, bool travels) {
     if (travels) {
         return stepTime < std::min(own.jumped, own.placed) ? own.inFrame : place;
     }
@@ -179,14 +199,33 @@ void StepClock::move(Slot& own, Due& due, double time, const StepPlace& place, b
         due.rows[k] = rowsOf(own.move);
     }
     if (own.isElsewhere) { // and where it would have been at the last step, had it come there
-        const double part = std::clamp((time - timeOfStep(due.first + due.count - 1)) * shared::kStepsASecond, 0.0, 1.0);
+        const double part =
+            std::clamp((time - timeOfStep(due.first + due.count - 1)) * shared::kStepsASecond, 0.0, 1.0);
         const StepPlace before = placeBetween({}, own.move, part);
         own.atLast = {place.linear * before.linear, place.linear * before.position + place.position};
         own.isElsewhere = false;
     }
 }
 
-StepClock::Due StepClock::take(uint32_t slot, uint64_t frame, double time, const StepPlace& place, bool travels) {
+void StepClock::beginSoft(Slot& own, Due& due, bool runs) {
+    const bool anew = due.settles && due.skipped == 0; // so does what is soft
+    const bool wakes = runs && !anew && own.softLast != own.last;
+    due.softSleeps = !runs || (wakes && due.count == 0);
+    due.softWakes = wakes && !due.softSleeps;
+    const int64_t last = due.first + due.count - 1;
+    if (due.softWakes && own.softLast != kNever) {
+        due.softSkipped = static_cast<uint32_t>(std::min<int64_t>(last - own.softLast, shared::kMostSkippedSteps));
+    }
+    if (anew) {
+        own.softLast = kNever;
+    }
+    if (!due.softSleeps) {
+        own.softLast = last;
+    }
+}
+
+StepClock::Due StepClock::take(uint32_t slot, uint64_t frame, double time, const StepPlace& place, bool travels,
+                               bool runsSoft) {
     if (undoFrame_ != frame) {
         undo_.clear();
         undoFrame_ = frame;
@@ -194,6 +233,7 @@ StepClock::Due StepClock::take(uint32_t slot, uint64_t frame, double time, const
     Slot& own = slots_[slot];
     undo_.push_back({slot, own});
     Due due = begun(own, time);
+    beginSoft(own, due, runsSoft);
     due.hasDown = findsDown_;
     if (due.settles) {
         own.atLast = own.inFrame = place;
@@ -246,7 +286,14 @@ void StepClock::cancelFrame(uint64_t frame) {
 }
 
 void StepClock::takeOver(const StepClock& other, uint32_t count) {
-    std::copy_n(other.slots_.begin(), isTaken() ? count : 0, slots_.begin());
+    if (!isTaken()) {
+        return;
+    }
+    std::copy_n(other.slots_.begin(), count, slots_.begin());
+    undoFrame_ = other.undoFrame_;
+    undo_.clear();
+    std::copy_if(other.undo_.begin(), other.undo_.end(), std::back_inserter(undo_),
+                 [count](const Undo& undo) { return undo.slot < count; });
 }
 
 } // namespace supple::runtime

@@ -36,28 +36,36 @@ struct StepPlace {
     return static_cast<double>(step) / shared::kStepsASecond;
 }
 
-/// A wind that is set from time to time. Steps before a call have what blew until then, if a frame has had steps.
+/// A wind that is set from time to time. Each call counts for the steps from its time on.
 class Wind {
 public:
     void set(const glm::dvec3& velocity, double time);
     /// As if no frame had had steps: what was set last blows in all that come. A recording that begins late tells no
     /// more than that.
     void settle();
-    [[nodiscard]] const glm::dvec3& at(double time) const { return changed_ && time < since_ ? before_ : now_; }
+    [[nodiscard]] const glm::dvec3& at(double time) const;
     /// A frame has asked for its steps: later calls change the wind of later ones.
     void endFrame(uint64_t frame);
     void cancelFrame(uint64_t frame);
 
 private:
-    glm::dvec3 now_{0.0}, before_{0.0};
-    double since_ = 0.0;
+    struct Change {
+        double since = 0.0;
+        glm::dvec3 velocity{0.0};
+    };
+    /// What blows before all changes, and these, by rising times. More than a frame has steps are of no use.
+    struct Course {
+        glm::dvec3 first{0.0};
+        std::array<Change, shared::kMostDueSteps + 1> changes;
+        uint32_t count = 0;
+        void add(const Change& change);
+        [[nodiscard]] const glm::dvec3& last() const { return count > 0 ? changes[count - 1].velocity : first; }
+    };
+    Course course_;
     bool isAsked_ = false; ///< a frame has asked for its steps
-    bool changed_ = false; ///< since the last frame
     // What that frame has found.
     uint64_t frame_ = 0;
-    bool undoChanged_ = false;
-    glm::dvec3 undoBefore_{0.0};
-    double undoSince_ = 0.0;
+    Course undo_;
 };
 
 /// Asking allocates nothing.
@@ -65,9 +73,7 @@ class StepClock {
 public:
     StepClock() = default; ///< not taken
     /// `findsDown`: for each step, where down is.
-    StepClock(uint32_t capacity, bool findsDown) : findsDown_(findsDown), slots_(capacity) {
-        undo_.reserve(capacity);
-    }
+    StepClock(uint32_t capacity, bool findsDown) : findsDown_(findsDown), slots_(capacity) { undo_.reserve(capacity); }
     /// False: no instance runs steps. Then take() and hasBefore() may not be called, and all else counts for nothing.
     [[nodiscard]] bool isTaken() const { return !slots_.empty(); }
 
@@ -98,43 +104,49 @@ public:
         bool settles = false;
         uint32_t skipped = 0; ///< if it settles: steps that are left out since the last that it ran; 0: nothing is left
         float part = 0.0f;    ///< of the way from the step before the last to the last, that is shown
-        uint32_t jump = kNone;                               ///< the one to which it has not moved
-        bool moves = false;                                  ///< else all rows are the identity
+        uint32_t jump = kNone;                            ///< the one to which it has not moved
+        bool moves = false;                               ///< else all rows are the identity
         std::array<bool, shared::kMostDueSteps> before{}; ///< posed by what was played before the last call
         std::array<std::array<glm::vec4, 3>, shared::kMostDueSteps> rows{};
+        /// What is soft runs none of them; else, if it wakes, the last alone, behind so many since it ran (0: at rest).
+        bool softSleeps = false, softWakes = false;
+        uint32_t softSkipped = 0;
         bool blows = false;   ///< else there is no wind in any of them
         bool hasDown = false; ///< whether `down` is found
         // What the world has, in the frame that the host places:
         std::array<glm::vec3, shared::kMostDueSteps> down{};
         std::array<glm::vec3, shared::kMostDueSteps> wind{}; ///< a velocity
     };
-    /// It has run them from now on. Frames come with rising numbers.
-    [[nodiscard]] Due take(uint32_t slot, uint64_t frame, double time, const StepPlace& place, bool travels);
+    /// It has run them from now on. Frames come with rising numbers. `runsSoft`: else what is soft sleeps.
+    [[nodiscard]] Due take(uint32_t slot, uint64_t frame, double time, const StepPlace& place, bool travels,
+                           bool runsSoft = true);
     /// All that run steps in the frame have taken them.
     void endFrame(uint64_t frame) { wind_.endFrame(frame); }
     /// What the frame's steps have done never happens.
     void cancelFrame(uint64_t frame);
 
-    /// Takes over the first `count` slots, with their state on the device.
+    /// Takes over the first `count` slots, with their state on the device and what a frame that is cancelled undoes.
     void takeOver(const StepClock& other, uint32_t count);
 
 private:
     static constexpr int64_t kNever = std::numeric_limits<int64_t>::min();
     static constexpr double kNoTime = std::numeric_limits<double>::infinity();
     struct Slot {
-        int64_t last = kNever; ///< the last step that was run
-        StepPlace atLast;    ///< where it stood then
-        StepPlace inFrame;   ///< and in the last frame that had it
+        int64_t last = kNever;     ///< the last step that was run
+        int64_t softLast = kNever; ///< and by what is soft
+        StepPlace atLast;          ///< where it stood then
+        StepPlace inFrame;         ///< and in the last frame that had it
         double frameTime = 0.0;
         double placed = 0.0;
         double changed = kNoTime; ///< since when what is played differs from what the last frame had
         double jumped = kNoTime;
         bool isElsewhere = false; ///< it has not moved from `inFrame` to where it stands now
-        StepPlace move;         ///< the last step's, as placeWithin()
+        StepPlace move;           ///< the last step's, as placeWithin()
     };
     [[nodiscard]] static Due begun(const Slot& own, double time); ///< without what it has been told
+    static void beginSoft(Slot& own, Due& due, bool runs);
     [[nodiscard]] static StepPlace placeAt(const Slot& own, double stepTime, double time, const StepPlace& place,
-                                             bool travels);
+                                           bool travels);
     /// Runs the steps that are due through where it has been.
     void move(Slot& own, Due& due, double time, const StepPlace& place, bool travels) const;
     void findAir(Due& due, uint32_t step, const StepPlace& place) const; ///< down and the wind

@@ -91,7 +91,7 @@ void main() {
     SpringStep now;
     now.settles = (steps & kStepSettles) != 0u;
     uint jump = (steps >> kStepJumpShift) & 15u;
-    steps = min(steps & 255u, kMostDueSteps);
+    steps = min(steps & kStepCountMask, kMostDueSteps);
     precise Affine before = rowsOf(spring(0u), spring(1u), spring(2u));
     meet();
     for (uint k = 0u; k < steps; ++k) {
@@ -111,7 +111,9 @@ void main() {
         keepSpring(1u, before.y);
         keepSpring(2u, before.z);
     }
-    locals = instanceWord(words + 5u) * push.scratchStride;
+    uint shown = instanceWord(words + 5u);
+    if (shown == kNotShown) return;
+    locals = shown * push.scratchStride;
     float part = uintBitsToFloat(instanceWord(words + 3u)), fade = uintBitsToFloat(instanceWord(words + 6u));
     for (uint chain = lane; chain < all.chainCount; chain += lanes) {
         uvec4 nodes = table(all.chains + chain);

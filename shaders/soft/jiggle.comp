@@ -36,9 +36,9 @@ void main() {
     uvec4 own = jiggleTable(kJiggleTableElements * vertex);
     vec4 spring = uintBitsToFloat(jiggleTable(kJiggleTableElements * vertex + 1u));
 
-    uint words = push.swinging + kStepWords * entry;
-    uint slot = slotOf(instanceWord(words)), first = instanceWord(words + 1u), flags = instanceWord(words + 2u);
-    uint moves = instanceWord(words + 4u), steps = min(flags & 255u, kMostDueSteps);
+    uint words = push.stepping + kStepWords * entry;
+    uint slot = slotOf(instanceWord(words)), first = instanceWord(words + 1u), flags = instanceWord(words + 7u);
+    uint moves = instanceWord(words + 4u), steps = min(flags & kStepCountMask, kMostDueSteps);
     uint jump = (flags >> kStepJumpShift) & 15u, number = (flags >> kStepNumberShift) & (kStepNumbers - 1u);
     uint ways = slot * push.stateStride, state = ways + kJiggleVertices + kJiggleElements * vertex;
     Jiggling jiggling = jigglingOf(jiggles.at[state], jiggles.at[state + 1u], jiggles.at[state + 2u], jiggles.at[state + 3u]);
@@ -57,8 +57,11 @@ void main() {
         precise vec3 goal = vec3(deformedVertex(own.x, (first + k) * push.stepStride));
         jiggling = jiggledStep(jiggling, goal, now, spring, uintBitsToFloat(own.z));
     }
-    precise Affine place = scratchRows(instanceWord(words + 5u) * push.scratchStride + push.place);
-    precise float weight = uintBitsToFloat(own.y) * uintBitsToFloat(instanceWord(words + 6u));
+    uint shownEntry = instanceWord(words + 5u);
+    float fade = uintBitsToFloat(instanceWord(words + 8u));
+    bool shows = shownEntry != kNotShown && fade != 0.0;
+    precise Affine place = scratchRows(SELECT(shows, shownEntry, 0u) * push.scratchStride + push.place);
+    precise float weight = uintBitsToFloat(own.y) * fade;
     precise vec3 moved = shownOffset(jiggling, uintBitsToFloat(instanceWord(words + 3u)), weight, place);
     if (!within) return;
     if (steps != 0u) {
@@ -73,6 +76,7 @@ void main() {
             jiggles.at[wayNow + 2u] = wayBefore.z;
         }
     }
+    if (!shows) return;
     uint cage = slot * push.cageStride + own.x;
     vec4 shown = deformedCage.at[cage];
     precise vec3 p = vec3(shown) + moved;

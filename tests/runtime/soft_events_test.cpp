@@ -1,5 +1,6 @@
 // What hosts do to what is soft: they hide, move and teleport instances, leave frames out, and set another
 // time.
+#include "tests/support/poses_of_host.h"
 #include "tests/support/recordings.h"
 #include "tests/support/soft_groups.h"
 #include "tests/support/test_view.h"
@@ -41,6 +42,13 @@ TEST_F(SoftEvents, AFrameThatIsCancelledHasNotBeen) {
         both.run(step);
         EXPECT_TRUE(both.same(0) && both.same(1)) << step;
     }
+}
+
+TEST_F(SoftEvents, AnotherCapacityBehindACancelledFrameChangesNothing) {
+    const ValidationGuard guard;
+    SoftPair both(context(SUPPLE_MAPPING_NARROW), 2);
+    expectTheSameBehindCancelledCapacities(
+        both, [&](uint32_t i) { return farthestApart(both.other.shown(i), both.plain.shown(i)); }, true);
 }
 
 TEST_F(SoftEvents, HiddenInstancesCatchUpOrSwingOn) {

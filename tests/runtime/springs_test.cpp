@@ -157,7 +157,7 @@ TEST(StepClock, PlacesGoStraightFromFrameToFrame) {
     // Turned and scaled: a quarter, in two steps.
     const runtime::StepPlace a{glm::dmat3(2.0), glm::dvec3(0.0)};
     const runtime::StepPlace b{glm::dmat3(glm::rotate(glm::dmat4(2.0), 1.5707963, glm::dvec3(0, 1, 0))),
-                                 glm::dvec3(0.0)};
+                               glm::dvec3(0.0)};
     const runtime::StepPlace half = runtime::placeBetween(a, b, 0.5);
     EXPECT_NEAR(half.linear[0][0], std::sqrt(2.0), 1e-6);
     EXPECT_EQ(runtime::placeBetween(a, b, 1.0), b);
@@ -203,6 +203,76 @@ TEST(StepClock, WindBlowsFromItsTimeOn) {
     EXPECT_FALSE(clock.take(0, 5, 18.0 / 60.0, turned, false).blows);
     EXPECT_EQ(runtime::velocityWithin({glm::dmat3(0.0), {}}, {1.0, 0.0, 0.0}), glm::vec3(0.0f)) << "flat";
     EXPECT_NEAR(runtime::velocityWithin({glm::dmat3(1e-9), {}}, {1.0, 0.0, 0.0}).x, 1e6f, 1.0f);
+}
+
+TEST(StepClock, SeveralWindsBlowEachInItsSteps) {
+    runtime::StepClock clock(1, false);
+    const auto take = [&](uint64_t frame, double step) {
+        const runtime::StepClock::Due due = clock.take(0, frame, step / 60.0 + 1e-9, {}, false);
+        clock.endFrame(frame);
+        return due;
+    };
+    (void)take(1, 10);
+    for (const double step : {10.5, 11.5, 13.5}) {
+        clock.setWind({step, 0.0, 0.0}, step / 60.0);
+    }
+    clock.setWind({7.0, 0.0, 0.0}, 13.5 / 60.0);
+    for (const uint64_t frame : {2u, 3u}) { // the second behind the first, which is cancelled
+        const runtime::StepClock::Due due = take(frame, 15);
+        ASSERT_EQ(due.count, 5u);
+        const float blows[] = {10.5f, 11.5f, 11.5f, 7.0f, 7.0f};
+        for (uint32_t k = 0; k < 5; ++k) {
+            EXPECT_EQ(due.wind[k].x, blows[k]) << k;
+        }
+        if (frame == 2) {
+            clock.cancelFrame(2);
+        }
+    }
+    for (uint32_t n = 0; n < 40; ++n) { // more than anybody needs
+        clock.setWind({n, 0.0, 0.0}, (15.5 + 0.1 * n) / 60.0);
+    }
+    const runtime::StepClock::Due due = take(4, 20);
+    EXPECT_EQ(due.wind[4].x, 39.0f);
+    EXPECT_EQ(due.wind[3].x, 35.0f);
+}
+
+TEST(StepClock, WhatIsSoftSleepsAndWakesByItself) {
+    runtime::StepClock clock(1, true);
+    uint64_t frame = 0;
+    const auto at = [&](double step, bool runsSoft) {
+        return clock.take(0, ++frame, step / 60.0 + 1e-9, {}, false, runsSoft);
+    };
+    EXPECT_FALSE(at(10, true).softSleeps);
+    EXPECT_FALSE(at(12, true).softWakes);
+    EXPECT_TRUE(at(15, false).softSleeps);
+    EXPECT_TRUE(at(15.5, true).softSleeps) << "it has no step to wake with";
+    runtime::StepClock::Due due = at(17, true);
+    EXPECT_TRUE(due.softWakes);
+    EXPECT_FALSE(due.settles) << "springs have not slept";
+    EXPECT_EQ(due.softSkipped, 5u) << "from step 12 to step 17";
+    clock.cancelFrame(frame);
+    EXPECT_EQ(at(18, true).softSkipped, 6u);
+    EXPECT_FALSE(at(19, true).softWakes);
+    EXPECT_TRUE(at(20, false).softSleeps);
+    due = at(40, true);
+    EXPECT_TRUE(due.settles && due.softWakes);
+    EXPECT_EQ(due.softSkipped, 21u);
+    clock.settle(0);
+    due = at(41, false);
+    EXPECT_TRUE(due.settles && due.softSleeps);
+    due = at(42, true);
+    EXPECT_TRUE(due.softWakes);
+    EXPECT_EQ(due.softSkipped, 0u) << "nothing of it is left";
+}
+
+TEST(StepClock, AnotherCapacityKeepsWhatACancelledFrameUndoes) {
+    runtime::StepClock clock(1, true);
+    (void)clock.take(0, 1, 10.0 / 60.0, {}, false);
+    (void)clock.take(0, 2, 12.0 / 60.0, {}, false);
+    runtime::StepClock larger(3, true);
+    larger.takeOver(clock, 1);
+    larger.cancelFrame(2);
+    EXPECT_EQ(larger.take(0, 3, 12.0 / 60.0, {}, false).first, 11);
 }
 
 TEST_F(Springs, StandInTheWind) {
@@ -620,7 +690,7 @@ TEST_F(Springs, AreRefusedWhereTheListOfPosesHasTooManyTexels) {
     WrappedVulkan& wrapped = wrappedVulkan();
     const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
     ASSERT_NE(device, nullptr);
-    constexpr uint32_t kTexels = 4096, kMost = kTexels / runtime::PoseList::kWordsOfSwinging;
+    constexpr uint32_t kTexels = 4096, kMost = kTexels / runtime::PoseList::kWordsOfStepping;
     const Result<cage::GlbFile> tube = cage::writeGlb(riggedTube({.segments = 8, .sides = 8, .joints = 4}));
     ASSERT_TRUE(tube);
     const std::vector<std::byte> swinging =

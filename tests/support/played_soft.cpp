@@ -57,8 +57,8 @@ void PlayedSoft::deformUnplaced(std::span<glm::vec4> cage) {
     skinning::deformLikeTheDevice(*table_, layout_, pose, cage);
 }
 
-void PlayedSoft::run(std::span<const uint32_t> state, std::span<const float> masks,
-                     const runtime::StepClock::Due& due) {
+void PlayedSoft::run(std::span<const uint32_t> state, std::span<const float> masks, const runtime::StepClock::Due& due,
+                     bool light) {
     std::vector<glm::vec4> cage(character_->cage.vertexCount());
     for (uint32_t k = 0; k < due.count; ++k) {
         twin_.pose(state, masks, runtime::timeOfStep(due.first + k), skinning::PoseTwin::Stands::unplaced);
@@ -70,7 +70,7 @@ void PlayedSoft::run(std::span<const uint32_t> state, std::span<const float> mas
         way_ = way;
         deformUnplaced(cage);
         runCloths(cage, {move, worldDirection(way, due.down[k]), worldVelocity(way, due.wind[k]), due.settles,
-                         due.skipped != 0, jumps});
+                         due.skipped != 0, jumps, light});
         for (size_t i = 0; i < vertices_.size(); ++i) {
             const cage::Jiggle& own = character_->jiggles[character_->weights.jiggles[vertices_[i]].index];
             jiggling_[i] =

@@ -23,7 +23,9 @@ public:
                const skinning::PoseLayout& layout, uint32_t transition);
 
     /// Runs the steps that are due of what `state` plays.
-    void run(std::span<const uint32_t> state, std::span<const float> masks, const runtime::StepClock::Due& due);
+    /// `light`: cloths are springs.
+    void run(std::span<const uint32_t> state, std::span<const float> masks, const runtime::StepClock::Due& due,
+             bool light = false);
     /// Fills the cage that is shown at a time.
     void show(std::span<const uint32_t> state, std::span<const float> masks, double time, float part,
               std::span<glm::vec4> cage);
