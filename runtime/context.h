@@ -29,6 +29,8 @@
 
 namespace supple::runtime {
 
+struct Frame;
+
 class Context {
     std::unique_ptr<gpu::Device> device_; ///< first, so that it goes last: everything below holds its address
     std::unique_ptr<gpu::Pipelines> pipelines_;
