@@ -118,7 +118,7 @@ Status Group::setRate(uint32_t rate) {
     Status status = surfaces_.setRate(rate);
     if (status) {
         rate_ = rate;
-        taskNeeds_ = countTasks();
+        passNeeds_ = countTasks();
         ++tasksVersion_;
     }
     return status;
@@ -226,7 +226,8 @@ Status Group::createRest(const GroupShared& shared) {
     status = status && shared.hashes != nullptr ? createHashes(shared.hashes) : status;
     if (status) {
         addMembers(shared);
-        taskNeeds_ = countTasks();
+        passNeeds_ = countTasks();
+        earlyNeeds_ = countEarlyTasks();
         for (const auto& surface : surfaces_) {
             patchesAtLevels_ += surface->patchesAtLevels();
         }

@@ -13,14 +13,14 @@ namespace {
 
 class HostSoftSeen : public CrowdContexts {};
 
-constexpr uint32_t kHop = 1; ///< the clip
+constexpr uint32_t kHopSeen = 1; ///< the clip
 
 /// A group in a view of its own that culls, by levels of detail.
 struct WatchedByHost {
     WatchedByHost(CrowdContext& context, SuppleGroupDesc desc) : view(context, 1u << 18, SUPPLE_VIEW_CULL) {
         desc.scheme = SUPPLE_SCHEME_PM;
         desc.view = view.handle();
-        group = std::make_unique<PosedGroup>(context, desc, kHop);
+        group = std::make_unique<PosedGroup>(context, desc, kHopSeen);
         view.camera.pixelsPerUnit = 400.0f;
     }
     void look(float away, bool looksAway) {
@@ -50,7 +50,7 @@ TEST_F(HostSoftSeen, WhoIsOutOfSightOrFarAwayHasTheSameBits) {
         CrowdContext& own = context(mapping);
         const SuppleAsset caped = own.asset(kCapedFile);
         const SuppleGroupDesc desc = posedGroup(caped, 2, SUPPLE_GROUP_SOFT);
-        PosedGroup plain(own, desc, kHop), stiff(own, posedGroup(caped, 2, 0), kHop);
+        PosedGroup plain(own, desc, kHopSeen), stiff(own, posedGroup(caped, 2, 0), kHopSeen);
         WatchedByHost seen(own, desc);
         ASSERT_TRUE(plain.crowd.valid() && stiff.crowd.valid() && seen.group->crowd.valid());
         double moves = 0.0;
@@ -81,9 +81,9 @@ TEST_F(HostSoftSeen, MotionVectorsAreOfWhatWasShown) {
         SuppleGroupDesc desc = posedGroup(own.asset(kCapedFile), 1, SUPPLE_GROUP_MOTION);
         desc.scheme = SUPPLE_SCHEME_PM;
         desc.rate = 1;
-        PosedGroup still(own, desc, kHop);
+        PosedGroup still(own, desc, kHopSeen);
         desc.flags |= SUPPLE_GROUP_SOFT;
-        PosedGroup soft(own, desc, kHop);
+        PosedGroup soft(own, desc, kHopSeen);
         ASSERT_TRUE(still.crowd.valid() && soft.crowd.valid());
         PosedGroup* const groups[] = {&still, &soft};
         PositionBits before[2];
@@ -134,7 +134,7 @@ TEST_F(HostSoftSeen, ViewsGoOnInAnotherCapacity) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
     const SuppleGroupDesc desc = posedGroup(own.asset(kCapedFile), 2, SUPPLE_GROUP_SOFT);
-    PosedGroup plain(own, desc, kHop);
+    PosedGroup plain(own, desc, kHopSeen);
     WatchedByHost seen(own, desc);
     ASSERT_TRUE(plain.crowd.valid() && seen.group->crowd.valid());
     seen.look(5.0f, false);

@@ -15,7 +15,7 @@ namespace {
 
 class SoftDetail : public CrowdContexts {};
 
-constexpr uint32_t kAll = SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT;
+constexpr uint32_t kAllThatSwings = SUPPLE_GROUP_SPRINGS | SUPPLE_GROUP_SOFT;
 
 /// One instance in a view, so many pixels large.
 class SizedGroup {
@@ -56,7 +56,7 @@ TEST_F(SoftDetail, OnlySpringsAreLeftBelowASize) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
     const SuppleAsset wren = swingingAndJigglingWren(own);
-    SizedGroup sized(own, wren, kAll, 2), all(own, wren, kAll | SUPPLE_GROUP_POSE_UNSEEN, 2),
+    SizedGroup sized(own, wren, kAllThatSwings, 2), all(own, wren, kAllThatSwings | SUPPLE_GROUP_POSE_UNSEEN, 2),
         springs(own, wren, SUPPLE_GROUP_SPRINGS, 2), none(own, wren, 0, 2);
     ASSERT_TRUE(sized.valid() && all.valid() && springs.valid() && none.valid());
     for (uint32_t step = 0; step < 150; ++step) {
