@@ -66,11 +66,11 @@ int64_t lastStepAt(double time) {
 }
 
 void Wind::Course::add(const Change& change) {
-    while (count > 0 && changes[count - 1].since >= change.since) {
-        --count; // from its time on, the later call counts
+    while (count > 0 && changes[count - 1].first >= change.first) {
+        --count; // from there on, the later call counts
     }
     if (count == changes.size()) {
-        first = changes[0].velocity;
+        before = changes[0].velocity;
         std::copy(changes.begin() + 1, changes.end(), changes.begin());
         --count;
     }
@@ -79,31 +79,32 @@ void Wind::Course::add(const Change& change) {
 
 void Wind::set(const glm::dvec3& velocity, double time) {
     if (isAsked_) {
-        course_.add({time, velocity});
+        const int64_t last = lastStepAt(time);
+        course_.add({timeOfStep(last) < time ? last + 1 : last, velocity});
     } else {
-        course_.first = velocity;
+        course_.before = velocity;
     }
 }
 
 void Wind::settle() {
     const glm::dvec3 now = course_.last();
     *this = {};
-    course_.first = now;
+    course_.before = now;
 }
 
-const glm::dvec3& Wind::at(double time) const {
+const glm::dvec3& Wind::at(int64_t step) const {
     for (uint32_t i = course_.count; i > 0; --i) {
-        if (time >= course_.changes[i - 1].since) {
+        if (step >= course_.changes[i - 1].first) {
             return course_.changes[i - 1].velocity;
         }
     }
-    return course_.first;
+    return course_.before;
 }
 
 void Wind::endFrame(uint64_t frame) {
     frame_ = frame;
     undo_ = course_;
-    course_.first = course_.last();
+    course_.before = course_.last();
     course_.count = 0;
     isAsked_ = true;
 }
@@ -181,7 +182,7 @@ void StepClock::findAir(Due& due, uint32_t step, const StepPlace& place) const {
     if (findsDown_) {
         due.down[step] = downWithin(place);
     }
-    const glm::dvec3& wind = wind_.at(timeOfStep(due.first + step));
+    const glm::dvec3& wind = wind_.at(due.first + step);
     if (wind != glm::dvec3(0.0)) {
         due.blows = true;
         due.wind[step] = velocityWithin(place, wind);

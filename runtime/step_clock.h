@@ -43,23 +43,23 @@ public:
     /// As if no frame had had steps: what was set last blows in all that come. A recording that begins late tells no
     /// more than that.
     void settle();
-    [[nodiscard]] const glm::dvec3& at(double time) const;
+    [[nodiscard]] const glm::dvec3& at(int64_t step) const;
     /// A frame has asked for its steps: later calls change the wind of later ones.
     void endFrame(uint64_t frame);
     void cancelFrame(uint64_t frame);
 
 private:
     struct Change {
-        double since = 0.0;
+        int64_t first = 0; ///< step
         glm::dvec3 velocity{0.0};
     };
-    /// What blows before all changes, and these, by rising times. More than a frame has steps are of no use.
+    /// What blows before all changes, and these, by rising steps. More than a frame has steps are of no use.
     struct Course {
-        glm::dvec3 first{0.0};
+        glm::dvec3 before{0.0};
         std::array<Change, shared::kMostDueSteps + 1> changes;
         uint32_t count = 0;
         void add(const Change& change);
-        [[nodiscard]] const glm::dvec3& last() const { return count > 0 ? changes[count - 1].velocity : first; }
+        [[nodiscard]] const glm::dvec3& last() const { return count > 0 ? changes[count - 1].velocity : before; }
     };
     Course course_;
     bool isAsked_ = false; ///< a frame has asked for its steps

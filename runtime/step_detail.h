@@ -25,7 +25,7 @@ public:
     struct Threshold {
         float below, above;
     };
-    static constexpr std::array<Threshold, 3> kThresholds = {{{96.0f, 120.0f}, {48.0f, 60.0f}, {24.0f, 30.0f}}};
+    static constexpr std::array<Threshold, 3> kThresholds = {{{64.0f, 80.0f}, {48.0f, 60.0f}, {24.0f, 30.0f}}};
     static constexpr double kFadeSeconds = 0.25; ///< 15 steps
     /// In each frame, by the group's time. An instance whose size was not known before does not fade.
     void setSize(uint32_t slot, float pixels, double time);

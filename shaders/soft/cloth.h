@@ -209,9 +209,8 @@ void holdVolume(ClothTables all) {
     meet();
 }
 
-// Behind constraints: the tether, which nothing moves the other end of; colliders; the speed that comes of it all.
-void finish(ClothTables all, uint vertex) {
-    uint at = clothVertexState(all, vertex);
+// Behind all else: the tether, which nothing moves the other end of; colliders.
+vec3 heldPlace(ClothTables all, uint vertex) {
     uvec4 own = clothTable(all.vertices + kClothVertexElements * vertex);
     SUPPLE_PRECISE vec3 place = vec3(placeAt(vertex));
     if (own.z != kClothFree) {
@@ -222,6 +221,12 @@ void finish(ClothTables all, uint vertex) {
     for (uint collider = 0u; collider < all.colliderCount; ++collider) {
         place = pushedOut(place, all.hitRadius, colliderAt(2u * collider), colliderAt(2u * collider + 1u));
     }
+    return place;
+}
+// And the speed that comes of it all.
+void finish(ClothTables all, uint vertex) {
+    uint at = clothVertexState(all, vertex);
+    SUPPLE_PRECISE vec3 place = heldPlace(all, vertex);
     SUPPLE_PRECISE vec3 speed = (place - vec3(clothState(at))) * all.perSecond;
     keepClothState(at + 1u, vec4(speed, clothState(at + 1u).w));
     keepPlace(vertex, vec4(place, placeAt(vertex).w));
@@ -242,8 +247,8 @@ void runSubstep(ClothTables all, ClothStep now, uint substep) {
     meet();
 }
 
-// A light cloth: a spring takes each vertex to where it comes to rest. It begins with the place and the speed that constraints have
-// left, and leaves its own to them.
+// A light cloth: in the place of constraints, a spring takes each vertex to where it comes to rest. It begins with the place and the
+// speed that constraints have left, and leaves its own to them.
 void springVertex(ClothTables all, uint vertex) {
     uint at = clothVertexState(all, vertex);
     vec4 own = placeAt(vertex), a = clothState(at), b = clothState(at + 1u), c = clothState(at + 2u);
@@ -262,6 +267,15 @@ void springVertex(ClothTables all, uint vertex) {
     keepPlace(vertex, vec4(place, own.w));
 }
 
+void finishSpring(ClothTables all, uint vertex) {
+    uint at = clothVertexState(all, vertex);
+    vec4 own = placeAt(vertex), b = clothState(at + 1u);
+    SUPPLE_PRECISE vec3 place = heldPlace(all, vertex);
+    SUPPLE_PRECISE vec3 speed = vec3(b) + (place - vec3(own)) * float(kStepsASecond);
+    keepClothState(at + 1u, vec4(speed, b.w));
+    keepPlace(vertex, vec4(place, own.w));
+}
+
 void endVertex(ClothTables all, uint vertex) {
     uint at = clothVertexState(all, vertex);
     vec4 a = clothState(at), b = clothState(at + 1u), c = clothState(at + 2u);
@@ -277,12 +291,16 @@ void endVertex(ClothTables all, uint vertex) {
 
 void runClothStep(ClothTables all, ClothStep now) {
     for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) beginVertex(all, now, i);
+    for (uint i = laneOf(); i < all.colliderCount; i += laneCount()) poseClothCollider(all, i);
     if (now.light) {
         for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) springVertex(all, i); // a lane keeps to its own
+        meet();
+        for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) {
+            if (i >= all.hangingCount) finishSpring(all, i);
+        }
     }
-    uint colliders = now.light ? 0u : all.colliderCount, substeps = now.light ? 0u : all.substeps;
-    for (uint i = laneOf(); i < colliders; i += laneCount()) poseClothCollider(all, i);
     meet();
+    uint substeps = now.light ? 0u : all.substeps;
     for (uint substep = 0u; substep < substeps; ++substep) runSubstep(all, now, substep);
     for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) endVertex(all, i);
     meet();

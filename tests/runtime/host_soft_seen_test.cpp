@@ -90,7 +90,8 @@ TEST_F(HostSoftSeen, MotionVectorsAreOfWhatWasShown) {
         for (uint32_t frame = 0; frame < 12; ++frame) { // at 90 Hz, where in some no step is due
             for (size_t g = 0; g < 2; ++g) {
                 poseAll(*groups[g], frame / 90.0);
-                groups[g]->frame(frame / 90.0);
+                own.setTime(frame / 90.0);
+                groups[g]->crowd.run();
                 const PositionBits now = groups[g]->crowd.positions(0);
                 EXPECT_EQ(differences(groups[g]->crowd.previous(0), frame > 0 ? before[g] : now), 0u)
                     << "group " << g << ", frame " << frame;

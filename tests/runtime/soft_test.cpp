@@ -157,8 +157,8 @@ TEST_F(Soft, LightClothsHaveTheWordsOfTheCpu) {
         desc.view = view.handle();
         SoftGroup soft(own, desc), stiff(own, playedGroup(desc.asset, 2, 0));
         ASSERT_TRUE(soft.crowd.valid() && stiff.crowd.valid());
-        view.camera.pixelsPerUnit = 60.0f * 50.0f / static_cast<float>(soft.extent());
-        view.look({0.0f, 1.0f, 50.0f});
+        view.camera.pixelsPerUnit = 56.0f * 1000.0f / soft.longestSide();
+        view.look({0.0f, 1.0f, 1000.0f});
         SoftOfTheCpu cpu(soft);
         cpu.lighten();
         double moved = 0.0;

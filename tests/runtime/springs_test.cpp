@@ -234,6 +234,7 @@ TEST(StepClock, SeveralWindsBlowEachInItsSteps) {
     const runtime::StepClock::Due due = take(4, 20);
     EXPECT_EQ(due.wind[4].x, 39.0f);
     EXPECT_EQ(due.wind[3].x, 35.0f);
+    EXPECT_EQ(due.wind[0].x, 5.0f);
 }
 
 TEST(StepClock, WhatIsSoftSleepsAndWakesByItself) {

@@ -131,10 +131,10 @@ TEST(StepDetail, HasFourSteps) {
         bool light;
     };
     double time = 0.0;
-    for (const Row& row : {Row{200.0f, 1.0f, 1.0f, false}, Row{97.0f, 1.0f, 1.0f, false}, Row{95.0f, 1.0f, 1.0f, true},
-                           Row{119.0f, 1.0f, 1.0f, true}, Row{47.0f, 1.0f, 0.0f, true}, Row{59.0f, 1.0f, 0.0f, true},
+    for (const Row& row : {Row{200.0f, 1.0f, 1.0f, false}, Row{65.0f, 1.0f, 1.0f, false}, Row{63.0f, 1.0f, 1.0f, true},
+                           Row{79.0f, 1.0f, 1.0f, true}, Row{47.0f, 1.0f, 0.0f, true}, Row{59.0f, 1.0f, 0.0f, true},
                            Row{23.0f, 0.0f, 0.0f, true}, Row{29.0f, 0.0f, 0.0f, true}, Row{59.0f, 1.0f, 0.0f, true},
-                           Row{119.0f, 1.0f, 1.0f, true}, Row{121.0f, 1.0f, 1.0f, false}, Row{1.0f, 0.0f, 0.0f, true},
+                           Row{79.0f, 1.0f, 1.0f, true}, Row{81.0f, 1.0f, 1.0f, false}, Row{1.0f, 0.0f, 0.0f, true},
                            Row{1000.0f, 1.0f, 1.0f, false}}) {
         detail.setSize(0, row.pixels, time += 1.0);
         EXPECT_EQ(detail.shown(0).springs, row.springs) << row.pixels;

@@ -1026,7 +1026,7 @@ typedef enum SuppleGroupFlags {
      * instances are posed and deformed. Without this flag, those that surely are out of sight are left out before they
      * are posed. Use it if you read poses or deformed cages of instances that the camera does not see. In any view,
      * steps of SUPPLE_GROUP_SPRINGS and SUPPLE_GROUP_SOFT are run in full however small an instance is on the screen.
-     * Without this flag, what plays has less of them below 96 pixels, and none below 24 (docs/soft.md). Use it if
+     * Without this flag, what plays has less of them below 64 pixels, and none below 24 (docs/soft.md). Use it if
      * replays with other cameras must have the same bits. */
     SUPPLE_GROUP_POSE_UNSEEN = 512,
     /** With SUPPLE_POSES_SET or SUPPLE_POSES_PLAYBACK: instances may have modifiers (suppleSetModifiers). These cost 2
