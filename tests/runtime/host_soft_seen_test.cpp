@@ -131,6 +131,31 @@ TEST_F(HostSoftSeen, AnotherVersionOfTheAssetBeginsAtRest) {
     }
 }
 
+TEST_F(HostSoftSeen, BoxesHoldWhatIsShown) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    PosedGroup soft(own, posedGroup(own.asset(kCapedFile), 1, SUPPLE_GROUP_SOFT | SUPPLE_GROUP_BOUNDS), kHopSeen);
+    ASSERT_TRUE(soft.crowd.valid());
+    for (uint32_t step = 0; step < 30; ++step) {
+        poseAll(soft, step / 60.0);
+        soft.frame(step / 60.0);
+        const uint64_t ran = own.frame;
+        own.beginFrame();
+        SuppleBounds box{};
+        uint64_t frame = 0;
+        ASSERT_EQ(suppleReadInstanceBounds(own.handle(), soft.instances[0], &box, &frame), SUPPLE_OK);
+        ASSERT_EQ(frame, ran);
+        const std::vector<float> shown = soft.cage();
+        for (size_t k = 0; k < shown.size(); ++k) {
+            if (k % 4 < 3) {
+                ASSERT_GE(shown[k], box.min[k % 4]) << step;
+                ASSERT_LE(shown[k], box.max[k % 4]) << step;
+                ASSERT_LT(box.max[k % 4] - box.min[k % 4], 10.0f) << "a figure, and no box around everything";
+            }
+        }
+    }
+}
+
 TEST_F(HostSoftSeen, ViewsGoOnInAnotherCapacity) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
