@@ -29,6 +29,8 @@
 
 namespace supple::runtime {
 
+struct Frame;
+
 class Context {
     std::unique_ptr<gpu::Device> device_; ///< first, so that it goes last: everything below holds its address
     std::unique_ptr<gpu::Pipelines> pipelines_;
@@ -74,6 +76,8 @@ public:
     [[nodiscard]] std::span<const CageStageRow> stageRows() const { return stages_.rows(); }
     /// The frame's passes in order; see frame.cpp.
     [[nodiscard]] Status record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc);
+    /// For runtime/early_steps.h, beside those that the frame's passes share.
+    [[nodiscard]] gpu::OwnDispatches earlyDispatches(const Frame& frame) const;
     [[nodiscard]] static SuppleSyncScope firstScope();
     [[nodiscard]] static SuppleSyncScope lastScope();
     /// Fills as much of `out` as there is; the number of barriers.
@@ -241,8 +245,8 @@ private:
     [[nodiscard]] Result<std::vector<Remade>> remake(const Remaking& remaking);
     [[nodiscard]] Status remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade);
     void replace(std::vector<Remade>& remade);
-    /// What linked groups need in one recording.
-    [[nodiscard]] gpu::TaskNeeds taskNeeds(const Group* groups) const;
+    /// What linked groups need in one recording. `ofGroup`: Group::passNeeds or earlyNeeds.
+    [[nodiscard]] gpu::TaskNeeds taskNeeds(const Group* groups, const gpu::TaskNeeds& (Group::*ofGroup)() const) const;
     /// Room for what all groups record in the frame from now on, and `more`.
     [[nodiscard]] Status reserveTasks(uint64_t frame, const gpu::TaskNeeds& more);
 

@@ -1,6 +1,7 @@
 // One frame: the table of passes (kPasses), and what walks it.
 #include "runtime/frame.h"
 #include "gpu/barriers.h"
+#include "runtime/early_steps.h"
 
 #include <algorithm>
 #include <cstring>
@@ -250,6 +251,7 @@ constexpr PassRow kUploads = {SUPPLE_PASS_UPLOAD, always, recordUpload, Behind::
 
 constexpr PassRow kPasses[] = {
     {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::attributesDue>, recordAttributes, Behind::nothing},
+    {SUPPLE_PASS_POSE, hasEarlySteps, recordEarlySteps, Behind::nothing, true, true},
     {SUPPLE_PASS_POSE, poses<Playback::Part::locals>, recordPose<Playback::Part::locals>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::roots>, recordPose<Playback::Part::roots>},
     {SUPPLE_PASS_POSE, poses<Playback::Part::modifiers>, recordPose<Playback::Part::modifiers>},
@@ -651,15 +653,19 @@ Status Context::recordWarmUp(VkCommandBuffer commandBuffer, std::span<const Supp
     return success();
 }
 
-gpu::TaskNeeds Context::taskNeeds(const Group* groups) const {
+gpu::TaskNeeds Context::taskNeeds(const Group* groups, const gpu::TaskNeeds& (Group::*ofGroup)() const) const {
     gpu::TaskNeeds needs;
     if (!device_->mapping.sharesDispatches) {
         return needs;
     }
     for (const Group* group = groups; group != nullptr; group = group->link.next) {
-        needs += group->taskNeeds();
+        needs += (group->*ofGroup)();
     }
     return needs;
+}
+
+gpu::OwnDispatches Context::earlyDispatches(const Frame& frame) const {
+    return {*device_, frame.commands, taskRooms_, frame.number, taskNeeds(frame.groups, &Group::earlyNeeds)};
 }
 
 Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& desc) {
@@ -672,8 +678,10 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
         return linked.error();
     }
     const gpu::Device& device = *device_;
-    const gpu::TaskNeeds needs = taskNeeds(*linked);
-    if (!taskRooms_.holds(device, frame_, needs)) { // the frame began without it
+    const gpu::TaskNeeds needs = taskNeeds(*linked, &Group::passNeeds);
+    gpu::TaskNeeds all = needs;
+    all += taskNeeds(*linked, &Group::earlyNeeds);
+    if (!taskRooms_.holds(device, frame_, all)) { // the frame began without it
         return Error{ErrorCode::deviceMemory, "suppleRecord: there is no memory for shared dispatches"};
     }
     device.beginLabel(commandBuffer, "supple");

@@ -118,7 +118,7 @@ Status Group::setRate(uint32_t rate) {
     Status status = surfaces_.setRate(rate);
     if (status) {
         rate_ = rate;
-        taskNeeds_ = countTasks();
+        passNeeds_ = countTasks();
         ++tasksVersion_;
     }
     return status;
@@ -226,7 +226,8 @@ Status Group::createRest(const GroupShared& shared) {
     status = status && shared.hashes != nullptr ? createHashes(shared.hashes) : status;
     if (status) {
         addMembers(shared);
-        taskNeeds_ = countTasks();
+        passNeeds_ = countTasks();
+        earlyNeeds_ = countEarlyTasks();
         for (const auto& surface : surfaces_) {
             patchesAtLevels_ += surface->patchesAtLevels();
         }
@@ -429,6 +430,15 @@ gpu::TaskNeeds Group::countTasks() const {
         needs += surface->taskNeeds();
     }
     return needs;
+}
+
+gpu::TaskNeeds Group::countEarlyTasks() const {
+    if (follows() || desc_.poseSource != SUPPLE_POSES_PLAYBACK || !instances_->room().hasSteps()) {
+        return {};
+    }
+    const uint32_t windows = listing_.windows().count(), stages = stages_.count(0);
+    const uint32_t rounds = (shared::kMostDueSteps - 1) / kStepsInRound;
+    return {rounds * windows * (Playback::kTasks + stages) + gpu::TaskDispatches::kPhases, windows * (1 + stages)};
 }
 
 gpu::MemoryUse Group::memoryUse() const {

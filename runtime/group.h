@@ -73,8 +73,19 @@ public:
     [[nodiscard]] Status setRate(uint32_t rate);
     /// Without the asset's tables, the view's buffers, and the instances of another group.
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
-    /// What its passes need in a frame.
-    [[nodiscard]] const gpu::TaskNeeds& taskNeeds() const { return taskNeeds_; }
+    /// What its passes need in a frame: those that groups share, and early steps (runtime/early_steps.h).
+    [[nodiscard]] const gpu::TaskNeeds& passNeeds() const { return passNeeds_; }
+    [[nodiscard]] const gpu::TaskNeeds& earlyNeeds() const { return earlyNeeds_; }
+    [[nodiscard]] gpu::TaskNeeds taskNeeds() const {
+        gpu::TaskNeeds needs = passNeeds_;
+        needs += earlyNeeds_;
+        return needs;
+    }
+    /// In the frame that is recorded.
+    [[nodiscard]] uint32_t earlyRounds() const {
+        const Playback* const playback = follows() ? nullptr : instances_->poses().playback();
+        return playback != nullptr ? playback->earlyRounds() : 0;
+    }
     /// Who records its tasks, and what they follow from in this frame.
     [[nodiscard]] gpu::TaskOwner taskOwner() const;
     [[nodiscard]] uint64_t number() const { return number_; }
@@ -138,7 +149,8 @@ public:
     /// `number`: one that no group has had. Tasks that were recorded under the last one are not gone on from.
     void noteBuffersChanged(uint64_t number) {
         number_ = number;
-        taskNeeds_ = countTasks();
+        passNeeds_ = countTasks();
+        earlyNeeds_ = countEarlyTasks();
     }
     /// What a frame is for all groups that are recorded in it.
     struct FrameInfo {
@@ -218,6 +230,7 @@ private:
     [[nodiscard]] Status checkPool() const;
     [[nodiscard]] Status createVisibility();
     [[nodiscard]] gpu::TaskNeeds countTasks() const;
+    [[nodiscard]] gpu::TaskNeeds countEarlyTasks() const;
     /// Whether other groups draw its instances too.
     [[nodiscard]] bool drawnElsewhere() const { return instances_.use_count() > 1; }
     /// What steps do to small instances is not seen: they run none.
@@ -253,7 +266,7 @@ private:
     uint64_t passesFrame_ = 0, passesBefore_ = 0, waitingFrame_ = 0, lastRecordedFrame_ = 0;
     uint64_t leader_ = 0;                    ///< the group whose instances it draws; 0: they are its own
     uint64_t number_ = 0, tasksVersion_ = 0; ///< the version rises when the tasks of all passes may change
-    gpu::TaskNeeds taskNeeds_;
+    gpu::TaskNeeds passNeeds_, earlyNeeds_;
     Culling* culling_ = nullptr;   ///< visibility_, if the group belongs to a view
     uint32_t sharers_ = 0;         ///< of the last recording: Sharers::end()
     uint32_t patchesAtLevels_ = 0; ///< in a view

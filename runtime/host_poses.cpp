@@ -371,7 +371,7 @@ std::optional<skinning::Box> HostPoses::boundsOf(uint32_t instance, const skinni
 }
 
 void HostPoses::step(uint32_t instance, skinning::InstancePose& pose) {
-    const SpringPlace place{glm::dmat3(glm::mat3(transforms_[instance])), positions_[instance]};
+    const StepPlace place{glm::dmat3(glm::mat3(transforms_[instance])), positions_[instance]};
     const HostSteps::Due due = steps_.take(instance, place);
     springs_.begin(instance);
     soft_.begin(instance, due, pose.transform);

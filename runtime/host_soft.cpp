@@ -31,14 +31,15 @@ void HostSoft::Poses::resize(const skinning::PoseLayout& layout, size_t count) {
 
 HostSoft::HostSoft(const skinning::PoseLayout& layout, uint32_t capacity, const StateRoom& room)
     : layout_(layout), capacity_(capacity), room_(room) {
-    layout_.stride = unshownStride(layout, room);
+    layout_.stride = unshownStride(layout, shared::kMostDueSteps);
     before_.resize(layout_, capacity);
     undo_.resize(layout_, capacity);
     mixed_.resize(layout_, 1);
 }
 
-VkDeviceSize HostSoft::windowBytes(const skinning::PoseLayout& layout, const StateRoom& room) {
-    return std::max(VkDeviceSize{unshownPoses(room)} * unshownStride(layout, room) * gpu::kVec4Bytes, kPlaceBytes);
+VkDeviceSize HostSoft::windowBytes(const skinning::PoseLayout& layout) {
+    constexpr uint32_t kPoses = shared::kMostDueSteps;
+    return std::max(VkDeviceSize{kPoses} * unshownStride(layout, kPoses) * gpu::kVec4Bytes, kPlaceBytes);
 }
 
 Status HostSoft::create(const gpu::Device& device, uint32_t windowSize, uint32_t framesInFlight) {
@@ -51,7 +52,7 @@ Status HostSoft::create(const gpu::Device& device, uint32_t windowSize, uint32_t
     framesInFlight_ = framesInFlight;
     poseCopies_.reserve(windowCount_);
     placeCopies_.reserve(windowCount_);
-    list_ = PoseList(capacity_, windowCount_, room_);
+    list_ = PoseList(capacity_, windowCount_, room_, shared::kMostDueSteps);
     gpu::BufferPlan local(buffers_), staging(staging_);
     list_.plan(local, staging, framesInFlight);
     constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -90,7 +91,7 @@ void HostSoft::begin(uint32_t slot, const HostSteps::Due& due, const glm::mat4& 
     }
     const uint32_t slotInWindow = slot - window_ * windowSize_;
     list_.addPose(slotInWindow, 0, 0.0);
-    list_.addSteps(slotInWindow, due.steps);
+    list_.addSteps(slotInWindow, due.steps, {});
     const glm::mat4 rows = glm::transpose(placement);
     const VkDeviceSize first = frame_ % framesInFlight_ * capacity_ + window_ * windowSize_;
     std::memcpy(placesStaging_.mapped() + (first + shown_) * kPlaceBytes, &rows, 3 * sizeof(glm::vec4));
@@ -210,6 +211,7 @@ void HostSoft::restore(uint32_t slot) {
 void HostSoft::takeOver(const HostSoft& other, uint32_t count) {
     for (uint32_t slot = 0; areTaken() && slot < count; ++slot) {
         copy(other.before_, slot, before_);
+        copy(other.undo_, slot, undo_);
     }
 }
 

@@ -27,7 +27,7 @@ public:
     /// Once; this stays where it is from then on, as its planned buffers point into it.
     [[nodiscard]] Status create(const gpu::Device& device, uint32_t windowSize, uint32_t framesInFlight);
     /// What an instance takes of a buffer that is bound by windows.
-    [[nodiscard]] static VkDeviceSize windowBytes(const skinning::PoseLayout& layout, const StateRoom& room);
+    [[nodiscard]] static VkDeviceSize windowBytes(const skinning::PoseLayout& layout);
     [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
     // A frame: of rising instances that run steps, each begins, takes its steps in their order and ends.
@@ -61,7 +61,7 @@ private:
     void mix(uint32_t slot, float way, const skinning::InstancePose& now); ///< into mixed_
     void endWindow();
     [[nodiscard]] VkDeviceSize stepBytes() const { return layout_.stride * gpu::kVec4Bytes; }
-    [[nodiscard]] VkDeviceSize poseBytes() const { return shared::kMostSpringSteps * stepBytes(); } ///< of an instance
+    [[nodiscard]] VkDeviceSize poseBytes() const { return shared::kMostDueSteps * stepBytes(); } ///< of an instance
 
     const gpu::Device* device_ = nullptr;
     skinning::PoseLayout layout_; ///< of steps

@@ -162,6 +162,8 @@ void HostSprings::takeOver(const HostSprings& other, uint32_t count) {
     std::copy_n(other.posed_.begin(), count * nodeCount_, posed_.begin());
     std::copy_n(other.before_.begin(), count * nodeCount_, before_.begin());
     std::copy_n(other.states_.begin(), count * stateElements_, states_.begin());
+    std::copy_n(other.undoBefore_.begin(), count * nodeCount_, undoBefore_.begin());
+    std::copy_n(other.undoStates_.begin(), count * stateElements_, undoStates_.begin());
 }
 
 } // namespace supple::runtime

@@ -32,7 +32,7 @@ void HostSteps::setTime(uint64_t frame, double time) {
     time_ = time;
 }
 
-HostSteps::Due HostSteps::take(uint32_t slot, const SpringPlace& place) {
+HostSteps::Due HostSteps::take(uint32_t slot, const StepPlace& place) {
     Slot& own = slots_[slot];
     taken_.push_back(slot);
     undo_.push_back(own.time);
@@ -40,7 +40,7 @@ HostSteps::Due HostSteps::take(uint32_t slot, const SpringPlace& place) {
     const double span = time_ - own.time;
     for (uint32_t k = 0; k < due.steps.count; ++k) {
         const bool onTheWay = !due.steps.settles && span > 0.0 && k < due.steps.jump; // no jump: behind all
-        const double way = onTheWay ? (springTime(due.steps.first + k) - own.time) / span : 1.0;
+        const double way = onTheWay ? (timeOfStep(due.steps.first + k) - own.time) / span : 1.0;
         due.ways[k] = static_cast<float>(std::min(way, 1.0));
     }
     own.time = time_;
@@ -64,7 +64,15 @@ void HostSteps::takeOver(const HostSteps& other, uint32_t count) {
     if (areTaken()) {
         clock_.takeOver(other.clock_, count);
         time_ = other.time_;
+        timeBefore_ = other.timeBefore_;
+        frame_ = other.frame_;
         std::copy_n(other.slots_.begin(), count, slots_.begin());
+        for (size_t i = 0; i < other.taken_.size(); ++i) {
+            if (other.taken_[i] < count) {
+                taken_.push_back(other.taken_[i]);
+                undo_.push_back(other.undo_[i]);
+            }
+        }
     }
 }
 

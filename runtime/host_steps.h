@@ -1,7 +1,7 @@
 // Which steps of the grid of times instances run whose poses the host sets. Their time is that of frames.
 #pragma once
 
-#include "runtime/spring_clock.h"
+#include "runtime/step_clock.h"
 #include "shaders/shared/pose.h"
 
 #include <array>
@@ -33,24 +33,24 @@ public:
     /// Instances in the bind pose run none.
     [[nodiscard]] bool runs(uint32_t slot) const { return areTaken() && slots_[slot].isPosed; }
     struct Due {
-        SpringClock::Due steps;
+        StepClock::Due steps;
         /// How far each is on the way from the pose of the frame before to that of this one; 1: this one's.
-        std::array<float, shared::kMostSpringSteps> ways{};
+        std::array<float, shared::kMostDueSteps> ways{};
     };
     /// It has run them from now on.
-    [[nodiscard]] Due take(uint32_t slot, const SpringPlace& place);
+    [[nodiscard]] Due take(uint32_t slot, const StepPlace& place);
 
     /// All that run steps in the frame have taken them.
     void endFrame() { clock_.endFrame(frame_); }
 
     /// What the frame's steps have done never happens. The slots that it concerns, until the next frame.
     std::span<const uint32_t> cancelFrame(uint64_t frame);
-    /// The first `count` instances, of the same asset.
+    /// The first `count` instances, of the same asset, with what a frame that is cancelled undoes. Once.
     void takeOver(const HostSteps& other, uint32_t count);
     void takeWind(const HostSteps& other) { clock_.takeWind(other.clock_); }
 
 private:
-    SpringClock clock_;
+    StepClock clock_;
     double time_ = 0.0, timeBefore_ = 0.0; ///< of the last frame, and of that before
     static constexpr uint64_t kNoFrame = ~uint64_t{0};
     uint64_t frame_ = kNoFrame;

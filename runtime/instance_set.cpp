@@ -53,13 +53,8 @@ Result<std::shared_ptr<InstanceSet>> InstanceSet::create(const Desc& desc) {
 }
 
 Status InstanceSet::makePipelines() {
-    const StateRoom& room = desc_.room;
-    skinning::PoseNeeds needs;
-    needs.mixes = room.updateRates;
-    needs.steps = room.hasSteps();
-    needs.springs = room.springs;
-    needs.drivers = desc_.asset->hasDrivers();
-    needs.clips = skinning::clipKinds(desc_.asset->character);
+    const Asset& asset = *desc_.asset;
+    const skinning::PoseNeeds needs = poseNeeds(desc_.room, asset.character, asset.hasMorphs());
     const Result<skinning::PosePipelines> made = desc_.pose->make(desc_.mode, needs);
     if (made) {
         pipelines_ = *made;

@@ -28,6 +28,9 @@ void InstanceState::takeOver(InstanceState& other, uint32_t count) {
     // If nothing was recorded since the other one took over, what it takes is still where it was.
     moved_ = other.start_.due() ? other.moved_ : other.set_;
     movedCount_ = other.start_.due() ? std::min(count, other.movedCount_) : count;
+    source_ = other.start_;
+    sourceMoved_ = other.moved_;
+    sourceCount_ = std::min(count, other.movedCount_);
 }
 
 void InstanceState::recordMove(VkCommandBuffer commandBuffer) const {
@@ -83,11 +86,19 @@ void InstanceState::beginFrame(uint64_t completedFrame) {
         moved_ = nullptr;
         movedCount_ = 0;
     }
+    if (source_.recordedBy(completedFrame)) {
+        sourceMoved_ = nullptr;
+    }
 }
 
 void InstanceState::cancelFrame(uint64_t frame) {
     // All instances are new in the frame after. A frame that moved nothing has left everything where it was.
     start_.cancelFrame(frame);
+    if (moved_ != nullptr && source_.recordedIn(frame)) {
+        source_.cancelFrame(frame);
+        moved_ = sourceMoved_;
+        movedCount_ = sourceCount_;
+    }
 }
 
 } // namespace supple::runtime

@@ -40,6 +40,11 @@ private:
     std::shared_ptr<gpu::BufferSet> moved_; ///< whose slots this one takes over, until that has happened
     uint32_t movedCount_ = 0;
     RecordedOnce start_; ///< the first recording: moves, and makes zero
+    // That of the state whose buffer is `moved_`, and where its slots were before: if the frame is cancelled, they are
+    // there.
+    RecordedOnce source_;
+    std::shared_ptr<gpu::BufferSet> sourceMoved_;
+    uint32_t sourceCount_ = 0;
 };
 
 } // namespace supple::runtime

@@ -102,13 +102,12 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
         if (!pose) {
             return pose.error();
         }
-        skinning::PoseNeeds needs;
-        needs.mixes = (group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0;
-        needs.springs =
+        StateRoom room;
+        room.updateRates = (group.desc.flags & SUPPLE_GROUP_UPDATE_RATES) != 0;
+        room.springs =
             (group.desc.flags & SUPPLE_GROUP_SPRINGS) != 0 && !prepared.character.springBones.springs.empty();
-        needs.steps = needs.springs || planned.jiggles || planned.cloths;
-        needs.drivers = planned.morphs && !prepared.character.drivers.empty();
-        needs.clips = skinning::clipKinds(prepared.character);
+        room.soft = planned.jiggles || planned.cloths;
+        const skinning::PoseNeeds needs = poseNeeds(room, prepared.character, planned.morphs);
         if (const Result<skinning::PosePipelines> made = (*pose)->make(planned.skinning, needs); !made) {
             return made.error();
         }

@@ -66,13 +66,13 @@ Status Playback::create(const Desc& desc) {
     positions_.resize(desc.capacity, glm::dvec3(0.0));
     bounds_ = PlayedBounds(desc.asset->character, skinning::SkinnedBounds(desc.asset->skinning(desc.layout.mode)),
                            desc.room.modifiers, desc.capacity);
-    list_ = PoseList(desc.capacity, windowCount(), desc.room);
+    list_ = PoseList(desc.capacity, windowCount(), desc.room, kStepsInRound);
     if (desc.room.updateRates) {
         laterTwin_ = twin_;
         rates_ = UpdateRates(desc.capacity);
     }
     if (desc.room.hasSteps()) {
-        springs_ = SpringClock(desc.capacity, desc.room.cloths);
+        clock_ = StepClock(desc.capacity, desc.room.cloths);
     }
     if (desc.room.springs) {
         bounds_.setSwinging(table.swinging);
@@ -243,7 +243,7 @@ void Playback::reset(uint32_t slot) {
     own.setBindPose();
     bounds_.setBindPose(slot);
     rates_.reset(slot);
-    springs_.settle(slot);
+    clock_.settle(slot);
     detail_.forget(slot);
     if (takesModifiers()) {
         bounds_.setTurned(slot, {}, false, 0.0);
@@ -320,7 +320,7 @@ void Playback::set(uint32_t slot, const skinning::PlaybackDesc& desc, const Tran
 }
 
 bool Playback::keepBefore(uint32_t slot) {
-    const bool keeps = springs_.change(slot, time_);
+    const bool keeps = clock_.change(slot, time_);
     if (keeps) {
         states_.keepBefore(slot);
     }
@@ -329,7 +329,7 @@ bool Playback::keepBefore(uint32_t slot) {
 
 bool Playback::travels(uint32_t slot) {
     const auto asks = [](std::span<const uint32_t> words) { return (words[1] & kStateTravels) != 0; };
-    return asks(states_.words(slot)) || (springs_.hasBefore(slot) && asks(states_.before(slot)));
+    return asks(states_.words(slot)) || (clock_.hasBefore(slot) && asks(states_.before(slot)));
 }
 
 glm::mat4 Playback::placement(uint32_t slot) const {
@@ -397,7 +397,7 @@ void Playback::setTransform(uint32_t slot, const glm::mat4& transform) {
 void Playback::setPosition(uint32_t slot, const glm::dvec3& position) {
     positions_[slot] = position;
     keepBefore(slot);
-    springs_.place(slot, time_);
+    clock_.place(slot, time_);
     place(slot);
 }
 
@@ -486,7 +486,7 @@ void Playback::takeOverState(Playback& other, uint32_t slot, const AssetMatch& m
 void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match) {
     time_ = other.time_;
     origin_ = other.origin_;
-    springs_.takeWind(other.springs_);
+    clock_.takeWind(other.clock_);
     masks_.takeOver(other.masks_, match);
     if (match.same) {
         adds_ = other.adds_;
@@ -499,7 +499,7 @@ void Playback::takeOver(Playback& other, uint32_t count, const AssetMatch& match
         bounds_.takeOver(other.bounds_, count);
         rates_.takeOver(other.rates_, count);
         steps_ = other.steps_;
-        springs_.takeOver(other.springs_, count);
+        clock_.takeOver(other.clock_, count);
         detail_.takeOver(other.detail_, count);
         springState_.takeOver(other.springState_, count);
     }
@@ -523,7 +523,7 @@ VkDeviceSize Playback::recordUpload(VkCommandBuffer commandBuffer, uint64_t fram
 
 void Playback::cancelFrame(uint64_t frame) {
     springState_.cancelFrame(frame);
-    springs_.cancelFrame(frame);
+    clock_.cancelFrame(frame);
     states_.cancelFrame(frame);
     masks_.cancelFrame(frame);
     if (list_.recordedIn(frame)) {
@@ -580,22 +580,23 @@ void Playback::listPose(uint32_t slot, uint32_t slotInWindow) {
 void Playback::listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow) {
     list_.addPose(slotInWindow, 0, time_);
     if (states_.state(slot).inBindPose()) {
-        springs_.settle(slot);
+        clock_.settle(slot);
         return;
     }
-    const float fade = detail_.fade(slot);
-    if (fade == 0.0f) {
+    PoseList::StepRecord record{detail_.shown(slot), {}};
+    if (record.shown.springs == 0.0f) {
         return;
     }
-    const SpringPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
-    const SpringClock::Due due = springs_.take(slot, frame, time_, place, travels(slot));
-    list_.addSteps(slotInWindow, due, fade);
+    const StepPlace place{glm::dmat3(glm::mat3(transforms_[slot])), positions_[slot]};
+    const bool runsSoft = record.shown.soft > 0.0f;
+    const StepClock::Due due = clock_.take(slot, frame, time_, place, travels(slot), runsSoft);
     for (uint32_t k = 0; k < due.count; ++k) {
         const std::span<const uint32_t> played = due.before[k] ? states_.before(slot) : states_.words(slot);
         const bool travels = (played[1] & kStateTravels) != 0;
-        list_.flagStep(k, (due.before[k] ? kPosedBefore : 0) | (travels ? kPosedTravels : 0));
-        firstStep_ = std::min(firstStep_, springTime(due.first + k));
+        record.posed[k] = (due.before[k] ? kPosedBefore : 0) | (travels ? kPosedTravels : 0);
+        firstStep_ = std::min(firstStep_, timeOfStep(due.first + k));
     }
+    list_.addSteps(slotInWindow, due, record);
 }
 
 bool Playback::has(Part part) const {
@@ -610,11 +611,26 @@ bool Playback::has(Part part) const {
     case Part::drivers:
         return posed && hasDrivers();
     case Part::springs:
-        return hasSprings() && (list_.swingingCount() > 0 || always);
+        return hasSprings() && (list_.steppingCount() > 0 || always);
     case Part::mix:
         return takesUpdateRates() && (list_.mixCount() > 0 || always);
     default:
         return posed;
+    }
+}
+
+bool Playback::hasEarly(Part part) const {
+    switch (part) {
+    case Part::springs:
+        return hasSprings();
+    case Part::palette:
+        return hasSoft();
+    case Part::drivers:
+        return hasSoft() && hasDrivers();
+    case Part::mix:
+        return false;
+    default:
+        return has(part);
     }
 }
 
@@ -630,7 +646,7 @@ uint64_t Playback::tasksMade() const {
     return bits | static_cast<uint32_t>(locals()) << 4;
 }
 
-PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& windows) const {
+PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& windows, uint32_t round) const {
     PosePush push = push_;
     const skinning::SplitTime time = skinning::splitTime(time_);
     push.timeHigh = time.high;
@@ -639,20 +655,21 @@ PosePush Playback::pushOf(Part part, uint32_t window, const InstanceWindows& win
     push.instanceCount = windows.listed[window].count;
     push.footCount = plants_ ? asset_->clipTable->footCount : 0;
     if (listsPoses()) {
-        const PoseList::Window& own = list_.window(window);
-        const PoseList::Run& run = part == Part::mix ? own.mixes : own.poses;
+        const PoseList::Round& own = list_.window(window).rounds[round];
+        const PoseList::Run& run = part == Part::mix ? list_.window(window).mixes : own.poses;
         push.firstInstance = run.first;
         const bool shownAlone = (part == Part::palette || part == Part::drivers) && !hasSoft();
-        push.instanceCount = shownAlone ? own.shown : part == Part::springs ? own.swinging.count : run.count;
+        push.instanceCount = shownAlone ? own.shown : part == Part::springs ? own.stepping.count : run.count;
         push.times = run.values;
         push.shown = own.shown;
-        push.springWords = own.swinging.first;
+        push.stepWords = own.stepping.first;
     }
     return push;
 }
 
-void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const {
-    const PosePush push = pushOf(part, window, windows);
+void Playback::record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows,
+                      uint32_t round) const {
+    const PosePush push = pushOf(part, window, windows, round);
     if (push.instanceCount == 0 && !dispatches.takesEmpty()) {
         return;
     }

@@ -14,7 +14,7 @@
 #include "runtime/played_masks.h"
 #include "runtime/played_states.h"
 #include "runtime/pose_list.h"
-#include "runtime/spring_clock.h"
+#include "runtime/step_clock.h"
 #include "runtime/step_detail.h"
 #include "runtime/update_rates.h"
 #include "skinning/deform_kernels.h"
@@ -77,7 +77,7 @@ public:
     /// Some joints swing. What is said of joints on the CPU, and of poses, is without that.
     [[nodiscard]] bool hasSprings() const { return push_.springs != 0; }
     /// Something runs steps on the grid of times.
-    [[nodiscard]] bool hasSteps() const { return springs_.isTaken(); }
+    [[nodiscard]] bool hasSteps() const { return clock_.isTaken(); }
     /// Some vertices are soft: steps have poses.
     [[nodiscard]] bool hasSoft() const { return (push_.stepNodes & shared::kStepsHavePoses) != 0; }
     /// Some morph weights follow from joints, beside what clips and the host make of them.
@@ -85,11 +85,11 @@ public:
     /// A frame poses what listPoses() has listed, not all that the group works on.
     [[nodiscard]] bool listsPoses() const { return list_.isTaken(); }
     /// Its springs see no movement from where it stood to where it stands in the next frame.
-    void teleport(uint32_t slot) { springs_.jump(slot, time_); }
+    void teleport(uint32_t slot) { clock_.jump(slot, time_); }
     /// Velocity in the world, from the group's time on.
-    void setWind(const glm::dvec3& velocity) { springs_.setWind(velocity, time_); }
+    void setWind(const glm::dvec3& velocity) { clock_.setWind(velocity, time_); }
     /// All that runs steps begins anew.
-    void settleSteps() { springs_.settleAll(); }
+    void settleSteps() { clock_.settleAll(); }
     void setTransform(uint32_t slot, const glm::mat4& transform);
     void setPosition(uint32_t slot, const glm::dvec3& position);
     /// Where the coordinates of the device begin. A change places the instances of the slots below `end` anew; others
@@ -176,7 +176,7 @@ public:
             }
             list_.endWindow(w);
         }
-        springs_.endFrame(frame);
+        clock_.endFrame(frame);
     }
     VkDeviceSize recordList(VkCommandBuffer commandBuffer, uint64_t frame) {
         return list_.recordUpload(*device_, commandBuffer, frame);
@@ -185,10 +185,14 @@ public:
     enum class Part { locals, roots, modifiers, drivers, springs, palette, mix };
     static constexpr uint32_t kParts = 7;
     static constexpr uint32_t kTasks = kParts + 1; ///< of a window at most: with transitions locals are two
-    /// A part of the pass over the instances of a window.
-    void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows) const;
+    /// A part of the pass over the instances of a window. `round`: PoseList::Window::rounds.
+    void record(gpu::Dispatches& dispatches, Part part, uint32_t window, const InstanceWindows& windows,
+                uint32_t round = 0) const;
     /// Whether there is anything to record of a part.
     [[nodiscard]] bool has(Part part) const;
+    /// Rounds of steps before that which is posed with what is shown.
+    [[nodiscard]] uint32_t earlyRounds() const { return hasSteps() ? list_.earlyRounds() : 0; }
+    [[nodiscard]] bool hasEarly(Part part) const;
     /// What the tasks of all parts follow from, beside windows and time; never 0.
     [[nodiscard]] uint64_t tasksMade() const;
     /// How their push constants (shared::PosePush) begin.
@@ -235,7 +239,8 @@ private:
     bool keepBefore(uint32_t slot);
     [[nodiscard]] bool travels(uint32_t slot);
     void listSteps(uint64_t frame, uint32_t slot, uint32_t slotInWindow);
-    [[nodiscard]] shared::PosePush pushOf(Part part, uint32_t window, const InstanceWindows& windows) const;
+    [[nodiscard]] shared::PosePush pushOf(Part part, uint32_t window, const InstanceWindows& windows,
+                                          uint32_t round) const;
     [[nodiscard]] PoseSpan spanOf(uint32_t slot); ///< that the instance shows at the group's time
     void listPose(uint32_t slot, uint32_t slotInWindow);
     void forget(uint32_t slot); ///< what plays there, or where it stands, has changed
@@ -270,7 +275,7 @@ private:
     TimeSteps steps_;
     PoseList list_;
 
-    SpringClock springs_;
+    StepClock clock_;
     StepDetail detail_;
     float extent_ = 0.0f;       ///< of the character as it rests, if takesStepSizes()
     InstanceState springState_; ///< created if hasSprings()

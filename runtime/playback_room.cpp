@@ -9,6 +9,16 @@
 
 namespace supple::runtime {
 
+skinning::PoseNeeds poseNeeds(const StateRoom& room, const cage::Character& character, bool hasMorphs) {
+    skinning::PoseNeeds needs;
+    needs.mixes = room.updateRates;
+    needs.steps = room.hasSteps();
+    needs.springs = room.springs;
+    needs.drivers = hasMorphs && !character.drivers.empty();
+    needs.clips = skinning::clipKinds(character);
+    return needs;
+}
+
 uint32_t transitionElements(const skinning::ClipTable& table, const skinning::PoseLayout& layout,
                             const StateRoom& room) {
     return room.transitions ? skinning::transitionElements(static_cast<uint32_t>(table.nodes.size()), layout.morphCount)
@@ -54,22 +64,22 @@ uint32_t springStride(const skinning::ClipTable& table, const StateRoom& room) {
 } // namespace
 
 uint32_t posesInFrame(const StateRoom& room) {
-    return room.updateRates ? 2 : room.hasSteps() ? 1 + kMostSpringSteps : 1;
+    return room.updateRates ? 2 : room.hasSteps() ? 1 + kStepsInRound : 1;
 }
 
 uint32_t unshownPoses(const StateRoom& room) {
-    return room.updateRates ? kPoseEnds : room.soft ? kMostSpringSteps : 0;
+    return room.updateRates ? kPoseEnds : room.soft ? kStepsInRound : 0;
 }
 
-uint32_t unshownStride(const skinning::PoseLayout& layout, const StateRoom& room) {
-    const uint32_t poses = unshownPoses(room), multiple = poses > 0 ? kPadding / poses : 1;
+uint32_t unshownStride(const skinning::PoseLayout& layout, uint32_t poses) {
+    const uint32_t multiple = poses > 0 ? kPadding / poses : 1;
     return poses > 0 ? (layout.elements() + multiple - 1) / multiple * multiple : 0;
 }
 
 VkDeviceSize playbackWindowBytes(const Asset& asset, const skinning::PoseLayout& layout, const StateRoom& room) {
     const skinning::ClipTable& table = *asset.clipTable;
     return std::max({stateStride(table, layout, room), posesInFrame(room) * scratchStride(table, room),
-                     unshownPoses(room) * unshownStride(layout, room), springStride(table, room)}) *
+                     unshownPoses(room) * unshownStride(layout, unshownPoses(room)), springStride(table, room)}) *
            gpu::kVec4Bytes;
 }
 
@@ -90,7 +100,7 @@ PosePush posePushOf(const Asset& asset, const skinning::PoseLayout& layout, cons
     push.scratchStride = scratchStride(table, room);
     push.contacts = table.contacts;
     push.poseStride = layout.stride;
-    push.endStride = unshownStride(layout, room);
+    push.endStride = unshownStride(layout, unshownPoses(room));
     push.morphWeights = layout.morphWeights;
     push.shown = UINT32_MAX;
     const bool poseAll = room.soft && skinning::isMush(layout.mode);

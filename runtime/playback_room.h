@@ -4,6 +4,7 @@
 #include "runtime/asset.h"
 #include "shaders/shared/pose.h"
 #include "skinning/deform_kernels.h"
+#include "skinning/pose_kernels.h"
 
 #include <cstdint>
 #include <supple/supple.h>
@@ -31,19 +32,27 @@ struct StateRoom {
     return source == SUPPLE_POSES_PLAYBACK || modifiers || springs;
 }
 
+/// What a group that plays, with such room, needs of the pose pass.
+[[nodiscard]] skinning::PoseNeeds poseNeeds(const StateRoom& room, const cage::Character& character, bool hasMorphs);
+
 /// The most that an instance takes of a buffer that is bound by windows; a multiple of every descriptor alignment.
 [[nodiscard]] VkDeviceSize playbackWindowBytes(const Asset& asset, const skinning::PoseLayout& layout,
                                                const StateRoom& room);
 
-/// Poses of an instance that may be made in one frame.
+/// Steps of an instance that are posed side by side. A frame with more due runs them in rounds, one behind the other,
+/// which share their working memory (runtime/early_steps.h).
+inline constexpr uint32_t kStepsInRound = 1;
+
+/// Poses of an instance for which there is working memory.
 [[nodiscard]] uint32_t posesInFrame(const StateRoom& room);
 
-/// Poses of an instance that are kept beside what is shown: ends of update rates, or those of steps of what is soft.
+/// Poses of an instance that are kept beside what is shown: ends of update rates, or those of the steps of a round
+/// for what is soft.
 [[nodiscard]] uint32_t unshownPoses(const StateRoom& room);
 
-/// From one pose of an instance that is not shown to the next. All of them together are a multiple of every descriptor
-/// alignment.
-[[nodiscard]] uint32_t unshownStride(const skinning::PoseLayout& layout, const StateRoom& room);
+/// From one of so many poses of an instance that are not shown to the next: a power of two. All of them together are a
+/// multiple of every descriptor alignment.
+[[nodiscard]] uint32_t unshownStride(const skinning::PoseLayout& layout, uint32_t poses);
 
 /// Of a transition in a state; 0: instances have none.
 [[nodiscard]] uint32_t transitionElements(const skinning::ClipTable& table, const skinning::PoseLayout& layout,

@@ -1,21 +1,47 @@
 #include "runtime/pose_list.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace supple::runtime {
 
-PoseList::PoseList(uint32_t capacity, uint32_t windowCount, const StateRoom& room)
-    : windows_(windowCount), bytes_(VkDeviceSize{capacity} * wordsOfInstance(room) * sizeof(uint32_t)) {
-    const size_t instances = isTaken() ? capacity : 0, swinging = room.hasSteps() ? instances : 0;
-    const size_t mixed = instances - swinging, steps = swinging * shared::kMostSpringSteps;
+namespace {
+
+/// In a record of steps.
+constexpr size_t kMovesWord = 4;
+
+void addMove(const StepClock::Due& due, uint32_t step, std::vector<uint32_t>& to) {
+    const auto add = [&](const auto& vector) {
+        for (int i = 0; i < vector.length(); ++i) {
+            to.push_back(std::bit_cast<uint32_t>(vector[i]));
+        }
+    };
+    for (const glm::vec4& row : due.rows[step]) {
+        add(row);
+    }
+    add(due.down[step]);
+    add(due.wind[step]);
+}
+
+} // namespace
+
+PoseList::PoseList(uint32_t capacity, uint32_t windowCount, const StateRoom& room, uint32_t stepsInRound)
+    : stepsInRound_(stepsInRound), windows_(windowCount),
+      bytes_(VkDeviceSize{capacity} * wordsOfInstance(room) * sizeof(uint32_t)) {
+    const size_t instances = isTaken() ? capacity : 0, stepping = room.hasSteps() ? instances : 0;
+    const size_t mixed = instances - stepping;
     words_.reserve(instances * wordsOfInstance(room));
-    times_.reserve(2 * (2 * mixed + swinging + steps));
+    times_.reserve(2 * (2 * mixed + stepping + stepping * stepsInRound));
     mixes_.reserve(mixed);
     parts_.reserve(mixed);
-    steps_.reserve(steps);
-    stepTimes_.reserve(2 * steps);
-    moves_.reserve(steps * shared::kMoveWords);
-    swinging_.reserve(swinging);
+    const uint32_t rounds = (shared::kMostDueSteps + stepsInRound - 1) / stepsInRound;
+    for (uint32_t round = 0; round < rounds; ++round) {
+        Steps& own = steps_[round];
+        own.entries.reserve(stepping * stepsInRound);
+        own.times.reserve(2 * stepping * stepsInRound);
+        own.moves.reserve(stepping * stepsInRound * shared::kMoveWords);
+        own.records.reserve(stepping);
+    }
 }
 
 void PoseList::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t framesInFlight) {
@@ -27,68 +53,78 @@ void PoseList::plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t 
     staging_ = staging.add({"supple list of poses staging", bytes_ * framesInFlight, VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
 }
 
-void PoseList::addSteps(uint32_t slot, const SpringClock::Due& due, float fade) {
-    using namespace shared;
-    const uint32_t jump = due.jump != SpringClock::kNone ? (due.jump + 1) << kSpringJumpShift : 0;
-    const uint32_t number = (static_cast<uint32_t>(due.first) & (kSpringNumbers - 1)) << kSpringNumberShift;
-    const uint32_t begins = due.settles ? kSpringSettles | due.skipped << kSpringSkippedShift : 0;
-    const bool moves = due.moves || due.blows || due.hasDown;
-    swinging_.push_back({slot, static_cast<uint32_t>(steps_.size()), due.count | jump | number | begins,
-                         std::bit_cast<uint32_t>(due.part), moves ? static_cast<uint32_t>(moves_.size()) + 1 : 0,
-                         static_cast<uint32_t>(times_.size() / 2) - 1, std::bit_cast<uint32_t>(fade)});
-    for (uint32_t k = 0; k < due.count; ++k) {
-        const skinning::SplitTime split = skinning::splitTime(springTime(due.first + k));
-        steps_.push_back(slot);
-        stepTimes_.push_back(std::bit_cast<uint32_t>(split.high));
-        stepTimes_.push_back(std::bit_cast<uint32_t>(split.low));
-        if (moves) {
-            addMove(due, k);
-        }
-    }
+void PoseList::addSteps(uint32_t slot, const StepClock::Due& due, const StepRecord& record) {
+    uint32_t end = due.count, round = 0;
+    do {
+        const uint32_t first = end - std::min(end, stepsInRound_);
+        addRun(steps_[round++], slot, due, first, end, record);
+        end = first;
+    } while (end > 0);
+    usedRounds_ = std::max(usedRounds_, round);
 }
 
-void PoseList::addMove(const SpringClock::Due& due, uint32_t step) {
-    const auto add = [&](const auto& vector) {
-        for (int i = 0; i < vector.length(); ++i) {
-            moves_.push_back(std::bit_cast<uint32_t>(vector[i]));
-        }
+void PoseList::addRun(Steps& to, uint32_t slot, const StepClock::Due& due, uint32_t first, uint32_t end,
+                      const StepRecord& record) const {
+    using namespace shared;
+    const bool isLast = end == due.count, moves = due.moves || due.blows || due.hasDown;
+    const bool jumps = due.jump >= first && due.jump < end;
+    const uint32_t jump = jumps ? (due.jump - first + 1) << kStepJumpShift : 0;
+    const uint32_t number = ((static_cast<uint32_t>(due.first) + first) & (kStepNumbers - 1)) << kStepNumberShift;
+    const auto begins = [](bool settles, uint32_t skipped) {
+        return settles ? kStepSettles | skipped << kStepSkippedShift : 0;
     };
-    for (const glm::vec4& row : due.rows[step]) {
-        add(row);
+    const uint32_t common = (end - first) | jump | number | (record.shown.lightCloths ? kStepLightCloths : 0);
+    const uint32_t softSkips = due.softWakes ? due.softSkipped : due.skipped;
+    const bool softRuns = !due.softSleeps && (!due.softWakes || isLast);
+    to.records.push_back({slot, static_cast<uint32_t>(to.entries.size()), common | begins(due.settles, due.skipped),
+                          std::bit_cast<uint32_t>(due.part), moves ? static_cast<uint32_t>(to.moves.size()) + 1 : 0,
+                          isLast ? static_cast<uint32_t>(times_.size() / 2) - 1 : kNotShown,
+                          std::bit_cast<uint32_t>(record.shown.springs),
+                          softRuns ? common | begins(due.settles || due.softWakes, softSkips) : 0,
+                          std::bit_cast<uint32_t>(due.softSleeps ? 0.0f : record.shown.soft)});
+    for (uint32_t k = first; k < end; ++k) {
+        const skinning::SplitTime split = skinning::splitTime(timeOfStep(due.first + k));
+        to.entries.push_back(slot | record.posed[k]);
+        to.times.push_back(std::bit_cast<uint32_t>(split.high));
+        to.times.push_back(std::bit_cast<uint32_t>(split.low));
+        if (moves) {
+            addMove(due, k, to.moves);
+        }
     }
-    add(due.down[step]);
-    add(due.wind[step]);
 }
 
 void PoseList::endWindow(uint32_t window) {
     Window& own = windows_[window];
-    own.shown = static_cast<uint32_t>(times_.size() / 2);
-    append(steps_);
-    times_.insert(times_.end(), stepTimes_.begin(), stepTimes_.end());
-    stepTimes_.clear();
-    own.poses.count = static_cast<uint32_t>(times_.size() / 2);
-    own.poses.values = append(times_);
-    own.poses.first = own.poses.values - own.poses.count;
+    own = {};
+    for (uint32_t r = 0; r < usedRounds_; ++r) {
+        Round& round = own.rounds[r];
+        round.shown = static_cast<uint32_t>(times_.size() / 2); // which stand before steps in the first one alone
+        append(steps_[r].entries);
+        times_.insert(times_.end(), steps_[r].times.begin(), steps_[r].times.end());
+        steps_[r].times.clear();
+        round.poses.count = static_cast<uint32_t>(times_.size() / 2);
+        round.poses.values = append(times_);
+        round.poses.first = round.poses.values - round.poses.count;
+        endStepping(steps_[r], round);
+    }
     own.mixes.first = append(mixes_);
     own.mixes.values = append(parts_);
     own.mixes.count = own.mixes.values - own.mixes.first;
-    endSwinging(own);
-    poses_ += own.shown;
+    poses_ += own.rounds[0].shown;
     mixed_ += own.mixes.count;
+    stepping_ += own.rounds[0].stepping.count;
 }
 
-void PoseList::endSwinging(Window& own) {
-    own.swinging.first = static_cast<uint32_t>(words_.size());
-    own.swinging.count = static_cast<uint32_t>(swinging_.size());
-    const uint32_t moves = own.swinging.first + own.swinging.count * shared::kSpringWords;
-    for (std::array<uint32_t, shared::kSpringWords>& record : swinging_) {
-        constexpr size_t kMoves = 4;
-        record[kMoves] += record[kMoves] != 0 ? moves - 1 : 0;
+void PoseList::endStepping(Steps& steps, Round& round) {
+    round.stepping.first = static_cast<uint32_t>(words_.size());
+    round.stepping.count = static_cast<uint32_t>(steps.records.size());
+    const uint32_t moves = round.stepping.first + round.stepping.count * shared::kStepWords;
+    for (std::array<uint32_t, shared::kStepWords>& record : steps.records) {
+        record[kMovesWord] += record[kMovesWord] != 0 ? moves - 1 : 0;
         words_.insert(words_.end(), record.begin(), record.end());
     }
-    swung_ += own.swinging.count;
-    swinging_.clear();
-    append(moves_);
+    steps.records.clear();
+    append(steps.moves);
 }
 
 uint32_t PoseList::append(std::vector<uint32_t>& values) {

@@ -3,7 +3,8 @@
 
 #include "gpu/buffer_plan.h"
 #include "runtime/playback_room.h"
-#include "runtime/spring_clock.h"
+#include "runtime/step_clock.h"
+#include "runtime/step_detail.h"
 #include "shaders/shared/pose.h"
 #include "skinning/split_time.h"
 
@@ -30,24 +31,26 @@ class PoseList {
 public:
     /// An instance has two ends with their times, or what is shown with its time; and its part of the way.
     static constexpr uint32_t kWordsOfInstance = 2 * 3 + 2;
-    /// With steps: what is shown, and each step with its time and its move.
-    static constexpr uint32_t kWordsOfSwinging =
-        3 + shared::kSpringWords + shared::kMostSpringSteps * (3 + shared::kMoveWords);
+    /// With steps: what is shown, and each step with its time, its record and its move.
+    static constexpr uint32_t kWordsOfStepping =
+        3 + shared::kMostDueSteps * (3 + shared::kStepWords + shared::kMoveWords);
 
     /// Of an instance of a group with update rates or steps; of others there is no list.
     [[nodiscard]] static constexpr uint32_t wordsOfInstance(const StateRoom& room) {
-        return room.hasSteps() ? kWordsOfSwinging : room.updateRates ? kWordsOfInstance : 0;
+        return room.hasSteps() ? kWordsOfStepping : room.updateRates ? kWordsOfInstance : 0;
     }
 
     PoseList() = default;
-    PoseList(uint32_t capacity, uint32_t windowCount, const StateRoom& room);
+    /// `stepsInRound`: of an instance; the working memory of the group has room for so many.
+    PoseList(uint32_t capacity, uint32_t windowCount, const StateRoom& room, uint32_t stepsInRound);
     /// False: a frame poses all that the group works on.
     [[nodiscard]] bool isTaken() const { return bytes_ > 0; }
     void plan(gpu::BufferPlan& device, gpu::BufferPlan& staging, uint32_t framesInFlight);
 
     void clear() {
         words_.clear();
-        poses_ = mixed_ = swung_ = 0;
+        poses_ = mixed_ = stepping_ = 0;
+        usedRounds_ = 1;
     }
     // Windows are listed one after the other; slots count within one. endWindow() is called for each.
     /// `end`: its number; 0: what is shown.
@@ -61,27 +64,36 @@ public:
         mixes_.push_back(slot | earlierEnd << shared::kPosedEndShift);
         parts_.push_back(std::bit_cast<uint32_t>(part));
     }
-    /// Behind addPose() of the instance, with what is shown: its steps. Their flags are 0. `fade`: how much is shown of
-    /// what they do.
-    void addSteps(uint32_t slot, const SpringClock::Due& due, float fade = 1.0f);
-    /// Step `k` of the instance whose steps were added last: kPosedBefore, kPosedTravels.
-    void flagStep(uint32_t k, uint32_t flags) { steps_[swinging_.back()[1] + k] |= flags; }
+    /// What is listed of an instance's steps beside the steps themselves.
+    struct StepRecord {
+        StepDetail::Shown shown;                             ///< of what they do
+        std::array<uint32_t, shared::kMostDueSteps> posed{}; ///< flags of each: kPosedBefore, kPosedTravels
+    };
+    /// Behind addPose() of the instance, with what is shown: its steps.
+    void addSteps(uint32_t slot, const StepClock::Due& due, const StepRecord& record);
     void endWindow(uint32_t window);
 
     /// Words of the list: entries, and what stands for each.
     struct Run {
         uint32_t first = 0, count = 0, values = 0;
     };
-    struct Window {
-        Run poses, mixes;
+    struct Round {
+        Run poses;
         uint32_t shown = 0; ///< of the poses, before steps
-        Run swinging;       ///< kSpringWords for each
+        Run stepping;       ///< kStepWords for each instance that has steps
+    };
+    struct Window {
+        Run mixes;
+        /// Rounds of steps by rising distance from the last one, with which all else is posed.
+        std::array<Round, shared::kMostDueSteps> rounds;
     };
     [[nodiscard]] const Window& window(uint32_t window) const { return windows_[window]; }
+    /// Rounds that come before the last one, in all windows.
+    [[nodiscard]] uint32_t earlyRounds() const { return usedRounds_ - 1; }
     // In all windows.
     [[nodiscard]] uint32_t poseCount() const { return poses_; }
     [[nodiscard]] uint32_t mixCount() const { return mixed_; }
-    [[nodiscard]] uint32_t swingingCount() const { return swung_; }
+    [[nodiscard]] uint32_t steppingCount() const { return stepping_; }
 
     [[nodiscard]] VkBuffer buffer() const { return buffer_.buffer(); }
     [[nodiscard]] VkDeviceSize bytes() const { return bytes_; }
@@ -90,17 +102,25 @@ public:
     [[nodiscard]] bool recordedIn(uint64_t frame) const { return isTaken() && frame_ == frame; }
 
 private:
-    void addMove(const SpringClock::Due& due, uint32_t step);
-    void endSwinging(Window& own);
+    /// Steps of one round in the window that is being listed.
+    struct Steps {
+        std::vector<uint32_t> entries, times, moves;
+        std::vector<std::array<uint32_t, shared::kStepWords>> records;
+    };
+    /// Those of an instance from `first` to `end`.
+    void addRun(Steps& to, uint32_t slot, const StepClock::Due& due, uint32_t first, uint32_t end,
+                const StepRecord& record) const;
+    void endStepping(Steps& steps, Round& round);
     /// The word where they begin. Leaves none.
     uint32_t append(std::vector<uint32_t>& values);
 
+    uint32_t stepsInRound_ = 1;
     std::vector<uint32_t> words_;
     // What the window has that is being listed:
-    std::vector<uint32_t> times_, mixes_, parts_, steps_, stepTimes_, moves_;
-    std::vector<std::array<uint32_t, shared::kSpringWords>> swinging_;
+    std::vector<uint32_t> times_, mixes_, parts_;
+    std::array<Steps, shared::kMostDueSteps> steps_; ///< by round
     std::vector<Window> windows_;
-    uint32_t poses_ = 0, mixed_ = 0, swung_ = 0;
+    uint32_t poses_ = 0, mixed_ = 0, stepping_ = 0, usedRounds_ = 1;
 
     VkDeviceSize bytes_ = 0; ///< at most
     uint32_t framesInFlight_ = 2;

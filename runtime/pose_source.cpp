@@ -53,8 +53,8 @@ public:
     }
     [[nodiscard]] gpu::MemoryUse memoryUse() const override { return poses_.soft().memoryUse(); }
     [[nodiscard]] StepPoses stepPoses() const override { return poses_.soft().stepPoses(); }
-    [[nodiscard]] const PoseList::Window* listedSteps(uint32_t window) const override {
-        return &poses_.soft().listed(window);
+    [[nodiscard]] const PoseList::Round* listedSteps(uint32_t window, uint32_t round) const override {
+        return &poses_.soft().listed(window).rounds[round];
     }
     PassCost recordUpload(VkCommandBuffer commandBuffer, const HostPoses::Frame& frame,
                           const InstanceSlots& slots) override {
@@ -131,8 +131,8 @@ public:
         return {0, playback_.recordUpload(commandBuffer, frame.number)};
     }
     [[nodiscard]] StepPoses stepPoses() const override { return playback_.stepPoses(); }
-    [[nodiscard]] const PoseList::Window* listedSteps(uint32_t window) const override {
-        return &playback_.listedPoses(window);
+    [[nodiscard]] const PoseList::Round* listedSteps(uint32_t window, uint32_t round) const override {
+        return &playback_.listedPoses(window).rounds[round];
     }
     void beginFrame(uint64_t completedFrame) override { playback_.beginFrame(completedFrame); }
     void cancelFrame(uint64_t frame) override { playback_.cancelFrame(frame); }
@@ -162,7 +162,7 @@ VkDeviceSize poseWindowBytes(SupplePoseSource source, const Asset& asset, const 
                              const StateRoom& room) {
     const VkDeviceSize played = source == SUPPLE_POSES_PLAYBACK ? playbackWindowBytes(asset, layout, room) : 0;
     const bool handsSteps = source == SUPPLE_POSES_SET && room.soft;
-    const VkDeviceSize steps = handsSteps ? HostSoft::windowBytes(layout, room) : 0;
+    const VkDeviceSize steps = handsSteps ? HostSoft::windowBytes(layout) : 0;
     return std::max({played, steps, VkDeviceSize{layout.stride} * 16});
 }
 

@@ -76,8 +76,10 @@ public:
     }
     // Where something is soft:
     [[nodiscard]] virtual StepPoses stepPoses() const { return {}; }
-    /// What is listed of the frame that is recorded.
-    [[nodiscard]] virtual const PoseList::Window* listedSteps(uint32_t /*window*/) const { return nullptr; }
+    /// What is listed of the frame that is recorded. `round`: PoseList::Window::rounds.
+    [[nodiscard]] virtual const PoseList::Round* listedSteps(uint32_t /*window*/, uint32_t /*round*/) const {
+        return nullptr;
+    }
     /// The pose pass has seven parts with a barrier between each two. Whether the source has this one.
     [[nodiscard]] virtual bool has(Playback::Part /*part*/) const { return false; }
     virtual PassCost recordPart(gpu::Dispatches& /*dispatches*/, Playback::Part /*part*/,

@@ -4,14 +4,22 @@ namespace supple::runtime {
 
 void StepDetail::setSize(uint32_t slot, float pixels, double time) {
     Slot& own = slots_[slot];
-    own.sleeps = pixels < (own.isKnown && own.sleeps ? kWakesAbove : kSleepsBelow);
-    const float target = own.sleeps ? 0.0f : 1.0f;
-    const double seconds = time - own.time;
-    if (!own.isKnown || seconds < 0.0) {
-        own.fade = target;
+    const auto before = own.isKnown ? static_cast<size_t>(own.level) : 0;
+    size_t level = 0;
+    while (level < kThresholds.size() &&
+           pixels < (level < before ? kThresholds[level].above : kThresholds[level].below)) {
+        ++level;
     }
-    const auto most = static_cast<float>(std::min(std::max(seconds, 0.0) / kFadeSeconds, 1.0));
-    own.fade += std::clamp(target - own.fade, -most, most);
+    own.level = static_cast<Level>(level);
+    const double seconds = time - own.time;
+    const bool jumps = !own.isKnown || seconds < 0.0;
+    const auto most = jumps ? 1.0f : static_cast<float>(std::min(seconds / kFadeSeconds, 1.0));
+    const auto fade = [most](float& shown, bool isShown) {
+        shown += std::clamp((isShown ? 1.0f : 0.0f) - shown, -most, most);
+    };
+    fade(own.shown.springs, own.level < Level::none);
+    fade(own.shown.soft, own.level < Level::springs);
+    own.shown.lightCloths = own.level != Level::full;
     own.isKnown = true;
     own.time = time;
 }

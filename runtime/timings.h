@@ -26,9 +26,9 @@ inline constexpr const char* kPassNames[] = {"all passes", "upload",   "attribut
 inline constexpr size_t kPassCount = std::size(kPassNames);
 [[nodiscard]] const char* passName(SupplePass pass);
 /// The most entries that a group can have in a frame, for each of its surfaces, beside one for every cage stage. Pose
-/// comes up to five times, bounds again for occlusion, level for patches, assemble and place for chains of leaves,
+/// comes up to six times, bounds again for occlusion, level for patches, assemble and place for chains of leaves,
 /// place for rates, and attributes if some surfaces have levels and others rates. Two of the names are no passes.
-inline constexpr size_t kMostEntries = kPassCount - 2 + 8;
+inline constexpr size_t kMostEntries = kPassCount - 2 + 9;
 
 class Timings {
 public:

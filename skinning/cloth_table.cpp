@@ -7,6 +7,7 @@
 #include "skinning/bits.h"
 #include "skinning/cloth_mesh.h"
 #include "skinning/cloth_twin.h"
+#include "skinning/jiggle_table.h"
 #include "skinning/pose.h"
 #include "skinning/soft_nodes.h"
 
@@ -14,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
 #include <limits>
 #include <optional>
 #include <queue>
@@ -34,6 +36,14 @@ constexpr double kVolumeGives = 0.05;    // beside what vertices give in the res
 constexpr uint32_t kSettlingSteps = 240; // four seconds
 constexpr uint32_t kLanes = 32;          // that a workgroup has at least
 constexpr uint32_t kVolumeRounds = 64;   // of trees and leaves
+
+/// The spring that a cloth is where it is light: it loses its speed as the cloth does, but swings at most a few times.
+glm::vec4 lightSpring(float drag) {
+    const double lost = -std::log(std::max(1.0 - static_cast<double>(drag), 1e-9)) * kStepsASecond;
+    const double damping = lost / (4.0 * glm::pi<double>() * static_cast<double>(kLightClothFrequency));
+    return jiggleSpring(
+        {.frequency = kLightClothFrequency, .damping = std::max(static_cast<float>(damping), kLeastLightDamping)});
+}
 
 struct Constraint {
     Pair pair;
@@ -106,7 +116,7 @@ private:
     [[nodiscard]] uint32_t stateElements() const { return kClothElements + (own_.volume ? 1 : 0); }
     [[nodiscard]] uint32_t next() const { return countOf(table_.words) / 4; }
     [[nodiscard]] static uint32_t roundsOf(uint32_t items) { return (items + kLanes - 1) / kLanes; }
-    [[nodiscard]] double substep() const { return 1.0 / (kSpringSteps * own_.substeps); }
+    [[nodiscard]] double substep() const { return 1.0 / (kStepsASecond * own_.substeps); }
     [[nodiscard]] double apart(uint32_t a, uint32_t b) const { return glm::distance(positions_[a], positions_[b]); }
     static uint32_t word(double value) { return bits(static_cast<float>(value)); }
 
@@ -295,11 +305,13 @@ private:
         }
         std::sort(lengths.begin(), lengths.end());
         const double median = lengths.empty() ? 0.0 : lengths[lengths.size() / 2], h = substep();
-        const auto kept = [&](float lost) { return std::pow(1.0 - static_cast<double>(lost), kSpringSteps * h); };
+        const auto kept = [&](float lost) { return std::pow(1.0 - static_cast<double>(lost), kStepsASecond * h); };
         set(head + 3, {word(h), word(kept(own_.drag)), word(1.0 - kept(own_.air)), word(0.25 * median)});
         set(head + 4, {word(1.0 / h), word(static_cast<double>(own_.gravity) * h), word(volume_),
                        word(kVolumeGives * volumeGradient())});
         set(head + 5, {bits(own_.hitRadius), 0u, 0u, 0u});
+        const glm::vec4 spring = lightSpring(own_.drag);
+        set(head + 6, {bits(spring.x), bits(spring.y), bits(spring.z), bits(spring.w)});
     }
 
     const cage::Character& character_;

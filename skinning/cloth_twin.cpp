@@ -81,6 +81,7 @@ void ClothTwin::step(uint32_t cloth, std::span<const glm::vec4> goals, std::span
     auto own = code.clothStep(now.move, code.stateRows(all.state + 3), now.settles, now.skips, now.jumps, head[6].x);
     own.down = now.down;
     own.wind = now.wind;
+    own.light = now.light;
     code.runClothStep(all, own);
     head[3] = own.move.x;
     head[4] = own.move.y;

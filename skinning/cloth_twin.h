@@ -25,6 +25,7 @@ public:
         glm::vec3 wind{0.0f};                     ///< the same
         bool settles = false, skips = false;      ///< it begins anew; behind steps that are left out
         bool jumps = false;                       ///< the instance has not moved there
+        bool light = false;                       ///< a spring in the place of constraints
     };
     /// `goals`: the cage in the step's pose, in model space; `joints`: what it takes each joint's bind pose by; none:
     /// all stand in their bind pose.

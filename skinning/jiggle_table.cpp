@@ -33,7 +33,7 @@ float towardsZero(double x) {
 } // namespace
 
 glm::vec4 jiggleSpring(const cage::Jiggle& jiggle) {
-    const double step = 1.0 / shared::kSpringSteps;
+    const double step = 1.0 / shared::kStepsASecond;
     const double angular = 2.0 * glm::pi<double>() * static_cast<double>(jiggle.frequency);
     const double damping = static_cast<double>(jiggle.damping), decay = damping * angular;
     // Of the damped oscillation, squared: below 0 it creeps back instead.

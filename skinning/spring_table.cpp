@@ -1,5 +1,6 @@
 #include "skinning/spring_table.h"
 
+#include "cage/spring_tails.h"
 #include "shaders/shared/pose.h"
 #include "skinning/bits.h"
 #include "skinning/pose.h"
@@ -16,9 +17,7 @@ namespace {
 using namespace shared;
 using cage::kNone;
 
-constexpr double kStep = 1.0 / kSpringSteps;
-constexpr double kLeafTail = 0.07;     // metres: what VRM 0.x gives a bone without children
-constexpr double kShortestTail = 1e-6; // in model space
+constexpr double kStep = 1.0 / kStepsASecond;
 
 /// A joint of a spring, with its tail in its own frame.
 struct Swinging {
@@ -38,13 +37,12 @@ public:
     SpringBuilder(const cage::Character& character, ClipTable& table)
         : character_(character), bones_(character.springBones), table_(table), flags_(nodes().size(), 0) {
         rest_.resize(nodes().size(), glm::dmat4(1.0));
-        firstChild_.resize(nodes().size(), kNone);
+        firstChild_ = cage::firstChildren(character.skeleton);
         for (const uint32_t node : character.skeleton.parentsFirst) {
             const uint32_t parent = nodes()[node].parent;
             rest_[node] = glm::dmat4(localMatrix(nodes()[node], restTransform(nodes()[node])));
             if (parent != kNone) {
                 rest_[node] = rest_[parent] * rest_[node];
-                firstChild_[parent] = std::min(firstChild_[parent], node);
             }
         }
     }
@@ -90,22 +88,14 @@ private:
         if (!spring.isTree) {
             return glm::dvec3(rest_[spring.joints[j + 1].node][3]);
         }
-        if (firstChild_[node] != kNone) {
-            return glm::dvec3(rest_[firstChild_[node]][3]);
-        }
-        if (nodes()[node].parent == kNone) {
-            return std::nullopt;
-        }
-        const glm::dvec3 head(rest_[node][3]), way = head - glm::dvec3(rest_[nodes()[node].parent][3]);
-        const double length = glm::length(way);
-        return length > kShortestTail ? std::optional(head + way * (kLeafTail / length)) : std::nullopt;
+        return cage::tailInTree(character_.skeleton, firstChild_, rest_, node);
     }
 
     void takeJoint(const cage::Spring& spring, size_t j) {
         const uint32_t node = spring.joints[j].node;
         const std::optional<glm::dvec3> tail = tailOf(spring, j);
         if (!tail || table_.places[node] == kNone || nodes()[node].hasMatrix ||
-            !(glm::distance(*tail, glm::dvec3(rest_[node][3])) > kShortestTail) ||
+            !(glm::distance(*tail, glm::dvec3(rest_[node][3])) > cage::kShortestTail) ||
             !(std::abs(glm::determinant(glm::dmat3(rest_[node]))) > 1e-30)) {
             return;
         }

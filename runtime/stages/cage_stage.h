@@ -78,6 +78,8 @@ public:
     virtual VkDeviceSize recordUpload(const CageFrame& /*frame*/) { return 0; }
     /// Barriers stand before and behind it.
     virtual PassCost record(const CageFrame& frame) = 0;
+    /// A round of steps that comes before all other passes (runtime/early_steps.h), with the same barriers.
+    virtual void recordEarly(const CageFrame& /*frame*/, uint32_t /*round*/) {}
 };
 
 /// What a stage has once per context: layouts and pipelines.

@@ -171,6 +171,10 @@ PassCost CageStages::record(gpu::Dispatches& dispatches, size_t row, uint32_t su
     return has(row) ? stages_[row]->record(frame(dispatches, surface)) : PassCost{};
 }
 
+void CageStages::recordEarly(gpu::Dispatches& dispatches, uint32_t round) {
+    forEach([&](CageStage& stage) { stage.recordEarly(frame(dispatches, SUPPLE_NO_SURFACE), round); });
+}
+
 void CageStages::cancelFrame(uint64_t frame) {
     FrameMembers::cancelFrame(frame);
     if (frame_ == frame) {

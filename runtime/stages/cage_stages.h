@@ -64,6 +64,7 @@ public:
     VkDeviceSize recordUpload(VkCommandBuffer commandBuffer, uint64_t frame, double time, const InstanceSlots& slots);
     /// In a frame that recordUpload() has begun. `surface`: if the row is recorded for each of them.
     PassCost record(gpu::Dispatches& dispatches, size_t row, uint32_t surface = SUPPLE_NO_SURFACE);
+    void recordEarly(gpu::Dispatches& dispatches, uint32_t round);
     void cancelFrame(uint64_t frame) override;
 
 private:

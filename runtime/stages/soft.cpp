@@ -59,16 +59,10 @@ public:
     }
 
     PassCost record(const CageFrame& frame) override {
-        uint64_t vertices = 0;
-        frame.windows.forEach([&](uint32_t w) {
-            const SoftPush push = pushOf(w);
-            if (push.instanceCount > 0 || frame.dispatches.takesEmpty()) {
-                kernels_->record(frame.dispatches, sets_[w], instances_->skinning(), push);
-                vertices += uint64_t{push.count} * push.instanceCount;
-            }
-        });
+        const uint64_t vertices = recordRound(frame, 0);
         return {vertices, vertices * gpu::kVec4Bytes};
     }
+    void recordEarly(const CageFrame& frame, uint32_t round) override { (void)recordRound(frame, round); }
 
     void recordWarmUp(VkCommandBuffer commandBuffer) const override {
         gpu::OwnDispatches dispatches(*device_, commandBuffer);
@@ -79,6 +73,19 @@ public:
     }
 
 private:
+    /// What is soft, over the instances that have steps.
+    uint64_t recordRound(const CageFrame& frame, uint32_t round) {
+        uint64_t items = 0;
+        frame.windows.forEach([&](uint32_t w) {
+            const SoftPush push = pushOf(w, round);
+            if (push.instanceCount > 0 || frame.dispatches.takesEmpty()) {
+                kernels_->record(frame.dispatches, sets_[w], instances_->skinning(), push);
+                items += uint64_t{push.count} * push.instanceCount;
+            }
+        });
+        return items;
+    }
+
     [[nodiscard]] Status writeSet(uint32_t w, const CageBuffers& buffers) {
         const InstanceWindows& windows = buffers.listing->windows();
         const StepPoses steps = instances_->poses().stepPoses();
@@ -116,15 +123,15 @@ private:
         return status;
     }
 
-    [[nodiscard]] SoftPush pushOf(uint32_t window) const {
+    [[nodiscard]] SoftPush pushOf(uint32_t window, uint32_t round) const {
         const StepPoses steps = instances_->poses().stepPoses();
-        const PoseList::Window& listed = *instances_->poses().listedSteps(window);
+        const PoseList::Round& listed = *instances_->poses().listedSteps(window, round);
         const SkinTables& skin = asset_->skin(instances_->skinning());
         SoftPush push{};
         push.count = soft_->count;
         push.firstInstance = listed.poses.first;
-        push.instanceCount = listed.swinging.count;
-        push.swinging = listed.swinging.first;
+        push.instanceCount = listed.stepping.count;
+        push.stepping = listed.stepping.first;
         push.shown = listed.shown;
         push.scratchStride = steps.scratchStride;
         push.place = steps.place;

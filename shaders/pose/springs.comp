@@ -82,16 +82,16 @@ void runStep(SpringTables all, SpringStep now, uint lane, uint lanes) {
 void main() {
     uint id = kWide ? workgroupIndex() : invocationIndex();
     listed = id < push.instanceCount;
-    uint words = push.springWords + kSpringWords * min(id, push.instanceCount - 1u);
+    uint words = push.stepWords + kStepWords * min(id, push.instanceCount - 1u);
     uint slot = slotOf(instanceWord(words)), first = push.shown + instanceWord(words + 1u);
     uint steps = instanceWord(words + 2u), moves = instanceWord(words + 4u);
     uint lane = kWide ? gl_LocalInvocationID.x : 0u, lanes = kWide ? gl_WorkGroupSize.x : 1u;
     SpringTables all = springTables();
     tails = slot * push.springStride;
     SpringStep now;
-    now.settles = (steps & kSpringSettles) != 0u;
-    uint jump = (steps >> kSpringJumpShift) & 15u;
-    steps = min(steps & 255u, kMostSpringSteps);
+    now.settles = (steps & kStepSettles) != 0u;
+    uint jump = (steps >> kStepJumpShift) & 15u;
+    steps = min(steps & kStepCountMask, kMostDueSteps);
     precise Affine before = rowsOf(spring(0u), spring(1u), spring(2u));
     meet();
     for (uint k = 0u; k < steps; ++k) {
@@ -111,7 +111,9 @@ void main() {
         keepSpring(1u, before.y);
         keepSpring(2u, before.z);
     }
-    locals = instanceWord(words + 5u) * push.scratchStride;
+    uint shown = instanceWord(words + 5u);
+    if (shown == kNotShown) return;
+    locals = shown * push.scratchStride;
     float part = uintBitsToFloat(instanceWord(words + 3u)), fade = uintBitsToFloat(instanceWord(words + 6u));
     for (uint chain = lane; chain < all.chainCount; chain += lanes) {
         uvec4 nodes = table(all.chains + chain);

@@ -80,7 +80,7 @@ vec4 swungRotation(uint element, uvec4 ids, Affine above, Transform own, SpringS
     SUPPLE_PRECISE vec3 last = through(move, vec3(spring(at)));
     SUPPLE_PRECISE vec3 before = through(move, vec3(spring(at + 1u)));
     SUPPLE_PRECISE vec3 pull = worldDirection(now.place, vec3(gravity)) * gravity.w;
-    SUPPLE_PRECISE vec3 carried = now.wind * (kSpringSeconds * (1.0f - ways.x)); // what drag takes, the air gives
+    SUPPLE_PRECISE vec3 carried = now.wind * (kStepSeconds * (1.0f - ways.x)); // what drag takes, the air gives
     pull = pull + carried;
     SUPPLE_PRECISE vec3 way = directionOr(swungTail(last, before, axis, tail.w, ways.x, pull) - head, axis);
     SUPPLE_PRECISE vec3 next = head + way * size;

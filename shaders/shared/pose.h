@@ -95,20 +95,23 @@
 // Ends (vec4 elements, in groups with update rates): two poses an instance, `endStride` apart, at the two grid times that a time
 // lies between; of number 1 and 2. They stand in model space, or where the instance has travelled to from there: the transform is
 // left out. They serve later frames, so they have a buffer that stays on this queue.
-// In groups where something is soft the buffer has the pose of each step instead, in the order of the list, in model space.
+// In groups where something is soft the buffer has the pose of each step of a round instead, in the order of the list, in model space.
 //
 // List of what is posed (words), in groups with update rates, made anew for every frame. For each window of instances: an entry for
 // every pose that is due, slot | number of the end << kPosedEndShift, 0: what is shown; from `times` on two words for each of these, its time as a high and a
 // low float; an entry for every instance that is shown between its ends, slot | number of the earlier one << kPosedEndShift;
 // then a float for each of these, the part of the way from the earlier end to the later one.
-// In groups with springs or what is soft the list has, for each window: an entry for every pose that is shown, `shown` of
-// them; an entry for each step that is due, slot | kPosedBefore if it is posed as before the last call | kPosedTravels if root motion
-// travels; from `times` on the times of all these; then kSpringWords for each instance that runs steps or shows them: (slot, the first
-// of its steps, how many | kSpringSettles, with the steps that are left out | a jump | the low 4 bits of the first one's number, the part of the way from the step
-// before the last to the last, as a float, where its moves begin or 0, its entry among those that are shown, how much is shown of
-// what steps do, as a float); moves: for each step the
-// three rows of how the model's frame at the step before lies in the one of this step, but for what root motion has travelled, and
-// the direction of the world's down in this step's, and the wind there; with cloths or wind all steps have them.
+// In groups with springs or what is soft the list has, for each window, rounds of steps. The first round has an entry for every pose
+// that is shown, `shown` of them, and for each instance its last step. Rounds that come before it in the frame have the steps before
+// that one. In each round: an entry for each step, slot | kPosedBefore if it is posed as before the last call | kPosedTravels if root
+// motion travels; from `times` on the times of all entries; then kStepWords for each instance that runs steps or shows them:
+//   slot; the first of its steps; its steps; the part of the way from the step before the last to the last, as a float; where its
+//   moves begin or 0; its entry among those that are shown or kNotShown; how much is shown of what springs do, as a float; its steps
+//   of what is soft, none while that sleeps; how much is shown of what these do, as a float
+// Steps are how many | kStepLightCloths | a jump | the low 4 bits of the first one's number | kStepSettles, with the steps that are
+// left out. Then moves, of each step: the three rows of how the model's frame at the step before lies in the one of this step, but
+// for what root motion has travelled, the direction of the world's down in this step's, and the wind there; with cloths or wind all
+// steps have them.
 //
 // Springs (vec4 elements, one run of `springStride` an instance): three rows of what it had travelled at the last step; then
 // kSpringJointElements for every joint that swings: its tail after the last step, and before that, in model space or in the frame of
@@ -210,18 +213,21 @@ SUPPLE_SHARED_CONST kUpdateSteps = 60u;      // of the grid in a second
 // Springs.
 SUPPLE_SHARED_CONST kPosedBefore = 0x40000000u;
 SUPPLE_SHARED_CONST kPosedTravels = 0x80000000u;
-SUPPLE_SHARED_CONST kSpringSteps = 60u;    // of the grid in a second
-SUPPLE_SHARED_FLOAT kSpringSeconds = 0.016666668f; // between two of them
-SUPPLE_SHARED_CONST kMostSpringSteps = 8u; // in a frame
+SUPPLE_SHARED_CONST kStepsASecond = 60u;    // of the grid in a second
+SUPPLE_SHARED_FLOAT kStepSeconds = 0.016666668f; // between two of them
+SUPPLE_SHARED_CONST kMostDueSteps = 8u; // in a frame
 // Rounds of an invocation's loops in a step: eight must not come near the 65,536 where some drivers end it.
 SUPPLE_SHARED_CONST kMostStepWork = 7000u;
-SUPPLE_SHARED_CONST kSpringWords = 7u;
+SUPPLE_SHARED_CONST kStepWords = 9u;
 SUPPLE_SHARED_CONST kMoveWords = 18u;
-SUPPLE_SHARED_CONST kSpringSettles = 0x80000000u; // tails at rest in the pose
-SUPPLE_SHARED_CONST kSpringJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
-SUPPLE_SHARED_CONST kSpringNumberShift = 12u; // 4 bits: the last of the first step's number
-SUPPLE_SHARED_CONST kSpringNumbers = 16u;     // that these tell apart: more than a frame has steps
-SUPPLE_SHARED_CONST kSpringSkippedShift = 16u; // 15 bits, beside kSpringSettles: steps that are left out
+SUPPLE_SHARED_CONST kStepSettles = 0x80000000u; // tails at rest in the pose
+SUPPLE_SHARED_CONST kStepCountMask = 15u;
+SUPPLE_SHARED_CONST kStepLightCloths = 0x10u; // cloths are springs
+SUPPLE_SHARED_CONST kNotShown = 0xFFFFFFFFu; // in the place of an entry
+SUPPLE_SHARED_CONST kStepJumpShift = 8u; // 4 bits: 1 + the number of a step to which it has not moved
+SUPPLE_SHARED_CONST kStepNumberShift = 12u; // 4 bits: the last of the first step's number
+SUPPLE_SHARED_CONST kStepNumbers = 16u;     // that these tell apart: more than a frame has steps
+SUPPLE_SHARED_CONST kStepSkippedShift = 16u; // 15 bits, beside kStepSettles: steps that are left out
 SUPPLE_SHARED_CONST kMostSkippedSteps = 0x7FFFu; // nine minutes; more count as these
 SUPPLE_SHARED_CONST kSpringHeadElements = 2u;
 SUPPLE_SHARED_CONST kSpringNodeElements = 4u;
@@ -295,7 +301,7 @@ struct PosePush {
     uint springs;      // section of the clip table
     uint springScratch;
     uint springStride;
-    uint springWords;  // word of the list where instances that swing begin
+    uint stepWords;  // word of the list where instances that swing begin
     uint drivers;      // section of the clip table; 0: no morph weights follow from joints
 };
 

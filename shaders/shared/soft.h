@@ -3,7 +3,7 @@
 // Jiggles' table (uvec4 elements), two for every vertex that jiggles: (cage vertex; weight, limit as float bits; 0);
 // (exp(h [[0, 1], [-k, -c]]) of a step h, row after row, as float bits), by which a spring goes on for a step
 //
-// Their state (vec4 elements, one run of `stateStride` an instance): kSpringNumbers times three rows, where root motion had taken the
+// Their state (vec4 elements, one run of `stateStride` an instance): kStepNumbers times three rows, where root motion had taken the
 // instance at a step, by the low 4 bits of the step's number; then kJiggleElements for every vertex:
 //   (offset from the goal; x of `before`), (its speed; y of `before`), (goal; z of `before`), (speed of the goal; what is known)
 // The goal is where joints have the vertex in the step's pose; `before` is the offset a step earlier. Known is nothing (0), the
@@ -15,7 +15,8 @@
 //              (colliders; the first one's element; substeps; where its state begins in an instance's run);
 //              (seconds of a substep; speed kept in one; lost to the air in one; the farthest that a vertex goes in one);
 //              (substeps a second; speed by gravity in one; six times the rest volume; by how much that gives, over the square of seconds);
-//              (radius of vertices against colliders; 0, 0, 0)
+//              (radius of vertices against colliders; 0, 0, 0);
+//              (the exponential of a step of the spring that a light cloth is, as jiggles have it)
 //   vertex     kClothVertexElements: (cage vertex; inverse mass, 0: it hangs; the vertex of the cloth that it is tethered to or
 //              kClothFree; the tether's length); (where it comes to rest, from where joints have it in the rest pose; 0);
 //              (the first of the faces around it, the end; 0, 0)
@@ -45,10 +46,10 @@ SUPPLE_SHARED_CONST kSoftPlaceBinding = 8u; // the scratch memory of the pose pa
 SUPPLE_SHARED_CONST kSoftPlaceTexelBinding = 9u;
 
 SUPPLE_SHARED_CONST kJiggleTableElements = 2u;
-SUPPLE_SHARED_CONST kJiggleVertices = 48u; // where they begin in an instance's run: behind 3 * kSpringNumbers
+SUPPLE_SHARED_CONST kJiggleVertices = 48u; // where they begin in an instance's run: behind 3 * kStepNumbers
 SUPPLE_SHARED_CONST kJiggleElements = 4u;
 
-SUPPLE_SHARED_CONST kClothHeadElements = 6u;
+SUPPLE_SHARED_CONST kClothHeadElements = 7u;
 SUPPLE_SHARED_CONST kClothVertexElements = 3u;
 SUPPLE_SHARED_CONST kClothFree = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kClothVertices = 7u; // where they begin in a cloth's state
@@ -56,6 +57,8 @@ SUPPLE_SHARED_CONST kClothElements = 4u;
 // What a workgroup has in its memory, of which every device has 16 KiB.
 SUPPLE_SHARED_CONST kMostClothVertices = 512u;
 SUPPLE_SHARED_CONST kMostClothColliders = 16u;
+SUPPLE_SHARED_FLOAT kLightClothFrequency = 1.5f; // a second
+SUPPLE_SHARED_FLOAT kLeastLightDamping = 0.2f;   // of the critical one
 SUPPLE_SHARED_FLOAT kMostClothKick = 5.0f; // units a second, of what a step of the model's frame does to a vertex
 SUPPLE_SHARED_CONST kClothSums = 256u; // a power of two: sums over a cloth are those of a tree with so many leaves
 
@@ -63,7 +66,7 @@ struct SoftPush {
     uint count;           // vertices that jiggle, or cloths
     uint firstInstance;   // where the list of what is posed begins
     uint instanceCount;   // that have steps, or show what steps have left
-    uint swinging;        // word of the list where these begin
+    uint stepping;        // word of the list where these begin
     uint shown;           // entries of the list before this one are shown, others are steps
     uint scratchStride;
     uint place;           // of an instance, in its run of the scratch memory

@@ -75,9 +75,9 @@ void keepStateRows(uint i, Affine rows) {
 }
 
 void runSteps(ClothTables all, uint words) {
-    uint first = instanceWord(words + 1u), flags = instanceWord(words + 2u), moves = instanceWord(words + 4u);
-    uint steps = min(flags & 255u, kMostSpringSteps), jump = (flags >> kSpringJumpShift) & 15u;
-    bool settles = (flags & kSpringSettles) != 0u, skips = ((flags >> kSpringSkippedShift) & kMostSkippedSteps) != 0u;
+    uint first = instanceWord(words + 1u), flags = instanceWord(words + 7u), moves = instanceWord(words + 4u);
+    uint steps = min(flags & kStepCountMask, kMostDueSteps), jump = (flags >> kStepJumpShift) & 15u;
+    bool settles = (flags & kStepSettles) != 0u, skips = ((flags >> kStepSkippedShift) & kMostSkippedSteps) != 0u;
     precise Affine before = stateRows(all.state), moveBefore = stateRows(all.state + 3u);
     float known = clothState(all.state + 6u).x;
     for (uint k = 0u; k < steps; ++k) {
@@ -88,6 +88,7 @@ void runSteps(ClothTables all, uint words) {
         ClothStep now = clothStep(stepMove(before, way, moves, k, false), moveBefore, settles, skips, jump == k + 1u, known);
         now.down = worldDirection(way, downRow(moves + kMoveWords * k));
         now.wind = worldVelocity(way, windRow(moves + kMoveWords * k));
+        now.light = (flags & kStepLightCloths) != 0u;
         runClothStep(all, now);
         before = way;
         moveBefore = now.move;
@@ -103,13 +104,15 @@ void runSteps(ClothTables all, uint words) {
 void main() {
     uint id = workgroupIndex();
     if (id >= push.count * push.instanceCount) return;
-    uint entry = id / push.count, words = push.swinging + kSpringWords * entry;
+    uint entry = id / push.count, words = push.stepping + kStepWords * entry;
     uint slot = slotOf(instanceWord(words));
     ClothTables all = clothTables(id - entry * push.count);
     states = slot * push.stateStride;
     runSteps(all, words);
-    precise Affine place = scratchRows(instanceWord(words + 5u) * push.scratchStride + push.place);
-    float part = uintBitsToFloat(instanceWord(words + 3u)), fade = uintBitsToFloat(instanceWord(words + 6u));
+    uint shownEntry = instanceWord(words + 5u);
+    float part = uintBitsToFloat(instanceWord(words + 3u)), fade = uintBitsToFloat(instanceWord(words + 8u));
+    if (shownEntry == kNotShown || fade == 0.0) return;
+    precise Affine place = scratchRows(shownEntry * push.scratchStride + push.place);
     for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) {
         if (i < all.hangingCount) continue;
         precise vec3 moved = shownClothOffset(all, i, part, place) * fade;

@@ -15,6 +15,7 @@ struct ClothStep {
     bool goesOn;   // as it hung, behind steps that are left out
     bool jumps;    // the instance is elsewhere, or has another pose, and has not moved there
     bool kicks;    // both moves are known
+    bool light;    // a spring in the place of constraints: it is far away
 };
 
 vec4 clothFloats(uint i) { return uintBitsToFloat(clothTable(i)); }
@@ -23,6 +24,7 @@ struct ClothTables {
     uint vertexCount, hangingCount, vertices, vertexElements, colourCount, colours, faceCount, faces, colliderCount, colliders;
     uint substeps, state;
     float seconds, kept, lostToAir, farthest, perSecond, gravity, volume, volumeCompliance, hitRadius;
+    vec4 spring;
 };
 ClothTables clothTables(uint cloth) {
     uint i = kClothHeadElements * cloth;
@@ -50,6 +52,7 @@ ClothTables clothTables(uint cloth) {
     all.volume = e.z;
     all.volumeCompliance = e.w;
     all.hitRadius = clothFloats(i + 5u).x;
+    all.spring = clothFloats(i + 6u);
     return all;
 }
 uint clothVertexState(ClothTables all, uint vertex) {
@@ -67,7 +70,7 @@ bool isNear(vec3 way, float squaresBelow) { return dot3(way, way) < squaresBelow
 
 // The speed of the model's frame at a point of it.
 vec3 frameSpeed(Affine move, vec3 at) {
-    SUPPLE_PRECISE vec3 speed = (at - through(move, at)) * float(kSpringSteps);
+    SUPPLE_PRECISE vec3 speed = (at - through(move, at)) * float(kStepsASecond);
     return speed;
 }
 // The speed in the frame that a vertex gains where the frame's motion changes: in the world it goes on as before.
@@ -88,15 +91,19 @@ void beginVertex(ClothTables all, ClothStep now, uint vertex) {
     SUPPLE_PRECISE vec3 before = vec3(clothState(at + 2u));
     bool sound = isNear(place - goal, 1e8f) && isNear(before, 1e8f) && isNear(speed, 1e12f);
     bool anew = now.begins || !sound, hangs = mobility <= 0.0f;
+    SUPPLE_PRECISE vec3 goalBefore = place - before;
     if (anew) before = settled;
-    if (anew || now.goesOn || now.jumps) place = goal + before;
+    if (anew || now.goesOn || now.jumps) {
+        place = goal + before;
+        goalBefore = goal;
+    }
     if (anew || now.goesOn) speed = vec3(0.0f);
     SUPPLE_PRECISE vec3 air = frameSpeed(now.move, place) - now.wind; // by how much the frame is faster
     if (!isNear(air, 1e12f)) air = vec3(0.0f);
     speed = speed + kickOf(now, place, speed);
     if (hangs) speed = goal;
     keepPlace(vertex, vec4(place, mobility));
-    keepClothState(at, vec4(place, before.x));
+    keepClothState(at, vec4(now.light ? goalBefore : place, before.x));
     keepClothState(at + 1u, vec4(speed, before.y));
     keepClothState(at + 2u, vec4(goal, before.z)); // the offset, once the step is done
     keepClothState(at + 3u, vec4(air, 0.0f));
@@ -202,9 +209,8 @@ void holdVolume(ClothTables all) {
     meet();
 }
 
-// Behind constraints: the tether, which nothing moves the other end of; colliders; the speed that comes of it all.
-void finish(ClothTables all, uint vertex) {
-    uint at = clothVertexState(all, vertex);
+// Behind all else: the tether, which nothing moves the other end of; colliders.
+vec3 heldPlace(ClothTables all, uint vertex) {
     uvec4 own = clothTable(all.vertices + kClothVertexElements * vertex);
     SUPPLE_PRECISE vec3 place = vec3(placeAt(vertex));
     if (own.z != kClothFree) {
@@ -215,6 +221,12 @@ void finish(ClothTables all, uint vertex) {
     for (uint collider = 0u; collider < all.colliderCount; ++collider) {
         place = pushedOut(place, all.hitRadius, colliderAt(2u * collider), colliderAt(2u * collider + 1u));
     }
+    return place;
+}
+// And the speed that comes of it all.
+void finish(ClothTables all, uint vertex) {
+    uint at = clothVertexState(all, vertex);
+    SUPPLE_PRECISE vec3 place = heldPlace(all, vertex);
     SUPPLE_PRECISE vec3 speed = (place - vec3(clothState(at))) * all.perSecond;
     keepClothState(at + 1u, vec4(speed, clothState(at + 1u).w));
     keepPlace(vertex, vec4(place, placeAt(vertex).w));
@@ -235,6 +247,35 @@ void runSubstep(ClothTables all, ClothStep now, uint substep) {
     meet();
 }
 
+// A light cloth: in the place of constraints, a spring takes each vertex to where it comes to rest. It begins with the place and the
+// speed that constraints have left, and leaves its own to them.
+void springVertex(ClothTables all, uint vertex) {
+    uint at = clothVertexState(all, vertex);
+    vec4 own = placeAt(vertex), a = clothState(at), b = clothState(at + 1u), c = clothState(at + 2u);
+    vec3 settled = vec3(clothFloats(all.vertices + kClothVertexElements * vertex + 1u));
+    SUPPLE_PRECISE vec3 goalSpeed = (vec3(c) - vec3(a)) * float(kStepsASecond);
+    SUPPLE_PRECISE vec3 offset = vec3(a.w, b.w, c.w) - settled;
+    SUPPLE_PRECISE vec3 speed = vec3(b) - goalSpeed;
+    speed = speed - (vec3(b) + vec3(clothState(at + 3u))) * min(all.lostToAir * float(all.substeps), 1.0f);
+    SUPPLE_PRECISE vec3 next = offset * all.spring.x + speed * all.spring.y;
+    SUPPLE_PRECISE vec3 nextSpeed = (offset * all.spring.z + speed * all.spring.w) + goalSpeed;
+    SUPPLE_PRECISE vec3 place = vec3(c);
+    if (own.w > 0.0f) {
+        place = place + (settled + next);
+        keepClothState(at + 1u, vec4(nextSpeed, b.w));
+    }
+    keepPlace(vertex, vec4(place, own.w));
+}
+
+void finishSpring(ClothTables all, uint vertex) {
+    uint at = clothVertexState(all, vertex);
+    vec4 own = placeAt(vertex), b = clothState(at + 1u);
+    SUPPLE_PRECISE vec3 place = heldPlace(all, vertex);
+    SUPPLE_PRECISE vec3 speed = vec3(b) + (place - vec3(own)) * float(kStepsASecond);
+    keepClothState(at + 1u, vec4(speed, b.w));
+    keepPlace(vertex, vec4(place, own.w));
+}
+
 void endVertex(ClothTables all, uint vertex) {
     uint at = clothVertexState(all, vertex);
     vec4 a = clothState(at), b = clothState(at + 1u), c = clothState(at + 2u);
@@ -251,14 +292,22 @@ void endVertex(ClothTables all, uint vertex) {
 void runClothStep(ClothTables all, ClothStep now) {
     for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) beginVertex(all, now, i);
     for (uint i = laneOf(); i < all.colliderCount; i += laneCount()) poseClothCollider(all, i);
+    if (now.light) {
+        for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) springVertex(all, i); // a lane keeps to its own
+        meet();
+        for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) {
+            if (i >= all.hangingCount) finishSpring(all, i);
+        }
+    }
     meet();
-    for (uint substep = 0u; substep < all.substeps; ++substep) runSubstep(all, now, substep);
+    uint substeps = now.light ? 0u : all.substeps;
+    for (uint substep = 0u; substep < substeps; ++substep) runSubstep(all, now, substep);
     for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) endVertex(all, i);
     meet();
 }
 
-// How the step lies to those before; what is known then. `move`: as stepMove() has it; `known`: before the step. Down and the
-// wind are left to the caller.
+// How the step lies to those before; what is known then. `move`: as stepMove() has it; `known`: before the step. Down, the
+// wind and whether it is light are left to the caller.
 ClothStep clothStep(Affine move, Affine before, bool settles, bool hasSkipped, bool jumps, float known) {
     SUPPLE_PRECISE ClothStep now;
     now.begins = known == 0.0f || (settles && !hasSkipped);

@@ -36,13 +36,13 @@ void main() {
     uvec4 own = jiggleTable(kJiggleTableElements * vertex);
     vec4 spring = uintBitsToFloat(jiggleTable(kJiggleTableElements * vertex + 1u));
 
-    uint words = push.swinging + kSpringWords * entry;
-    uint slot = slotOf(instanceWord(words)), first = instanceWord(words + 1u), flags = instanceWord(words + 2u);
-    uint moves = instanceWord(words + 4u), steps = min(flags & 255u, kMostSpringSteps);
-    uint jump = (flags >> kSpringJumpShift) & 15u, number = (flags >> kSpringNumberShift) & (kSpringNumbers - 1u);
+    uint words = push.stepping + kStepWords * entry;
+    uint slot = slotOf(instanceWord(words)), first = instanceWord(words + 1u), flags = instanceWord(words + 7u);
+    uint moves = instanceWord(words + 4u), steps = min(flags & kStepCountMask, kMostDueSteps);
+    uint jump = (flags >> kStepJumpShift) & 15u, number = (flags >> kStepNumberShift) & (kStepNumbers - 1u);
     uint ways = slot * push.stateStride, state = ways + kJiggleVertices + kJiggleElements * vertex;
     Jiggling jiggling = jigglingOf(jiggles.at[state], jiggles.at[state + 1u], jiggles.at[state + 2u], jiggles.at[state + 3u]);
-    uint wayAt = ways + 3u * ((number + kSpringNumbers - 1u) & (kSpringNumbers - 1u));
+    uint wayAt = ways + 3u * ((number + kStepNumbers - 1u) & (kStepNumbers - 1u));
     precise Affine wayBefore = rowsOf(jiggles.at[wayAt], jiggles.at[wayAt + 1u], jiggles.at[wayAt + 2u]);
     for (uint k = 0u; k < steps; ++k) {
         uint posed = push.shown + first + k;
@@ -51,14 +51,17 @@ void main() {
         precise JiggleStep now;
         now.jumps = jump == k + 1u;
         now.move = stepMove(wayBefore, way, moves, k, now.jumps);
-        now.settles = (flags & kSpringSettles) != 0u;
-        now.skipped = (flags >> kSpringSkippedShift) & kMostSkippedSteps;
+        now.settles = (flags & kStepSettles) != 0u;
+        now.skipped = (flags >> kStepSkippedShift) & kMostSkippedSteps;
         wayBefore = way;
         precise vec3 goal = vec3(deformedVertex(own.x, (first + k) * push.stepStride));
         jiggling = jiggledStep(jiggling, goal, now, spring, uintBitsToFloat(own.z));
     }
-    precise Affine place = scratchRows(instanceWord(words + 5u) * push.scratchStride + push.place);
-    precise float weight = uintBitsToFloat(own.y) * uintBitsToFloat(instanceWord(words + 6u));
+    uint shownEntry = instanceWord(words + 5u);
+    float fade = uintBitsToFloat(instanceWord(words + 8u));
+    bool shows = shownEntry != kNotShown && fade != 0.0;
+    precise Affine place = scratchRows(SELECT(shows, shownEntry, 0u) * push.scratchStride + push.place);
+    precise float weight = uintBitsToFloat(own.y) * fade;
     precise vec3 moved = shownOffset(jiggling, uintBitsToFloat(instanceWord(words + 3u)), weight, place);
     if (!within) return;
     if (steps != 0u) {
@@ -66,13 +69,14 @@ void main() {
         jiggles.at[state + 1u] = vec4(jiggling.speed, jiggling.before.y);
         jiggles.at[state + 2u] = vec4(jiggling.goal, jiggling.before.z);
         jiggles.at[state + 3u] = vec4(jiggling.goalSpeed, jiggling.known);
-        uint wayNow = ways + 3u * ((number + steps - 1u) & (kSpringNumbers - 1u));
+        uint wayNow = ways + 3u * ((number + steps - 1u) & (kStepNumbers - 1u));
         if (vertex == 0u) {
             jiggles.at[wayNow] = wayBefore.x;
             jiggles.at[wayNow + 1u] = wayBefore.y;
             jiggles.at[wayNow + 2u] = wayBefore.z;
         }
     }
+    if (!shows) return;
     uint cage = slot * push.cageStride + own.x;
     vec4 shown = deformedCage.at[cage];
     precise vec3 p = vec3(shown) + moved;

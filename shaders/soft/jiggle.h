@@ -98,7 +98,7 @@ SUPPLE_SHARED_FUNCTION Jiggling jiggledStep(Jiggling before, vec3 goal, JiggleSt
         own = sprungOften(before, spring, now.skipped - 1u, limit);
         move = identity();
     }
-    SUPPLE_PRECISE vec3 goalSpeed = (goal - through(move, own.goal)) * float(kSpringSteps);
+    SUPPLE_PRECISE vec3 goalSpeed = (goal - through(move, own.goal)) * float(kStepsASecond);
     SUPPLE_PRECISE vec3 speedBefore = directionThrough(move, own.goalSpeed);
     if (now.jumps) goalSpeed = speedBefore;
     // What the goal is faster by, the vertex is slower by. The first speed is not believed: the host may have placed the

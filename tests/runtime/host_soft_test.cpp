@@ -140,6 +140,13 @@ TEST_F(HostSoft, AFrameThatIsCancelledHasNotBeen) {
     expectTheSameBehindCancelledFrames(both, [&](uint32_t i) { return both.off(i); });
 }
 
+TEST_F(HostSoft, AnotherCapacityBehindACancelledFrameChangesNothing) {
+    const ValidationGuard guard;
+    TwoSoftGroups both(context(SUPPLE_MAPPING_NARROW), 2);
+    expectTheSameBehindCancelledCapacities(
+        both, [&](uint32_t i) { return both.off(i); }, false);
+}
+
 TEST_F(HostSoft, TeleportsKeepHowItMoves) {
     TwoSoftGroups both(context(SUPPLE_MAPPING_NARROW), 2);
     const glm::mat4 far = glm::translate(glm::mat4(1.0f), glm::vec3(100.0f, 0.0f, 0.0f));
@@ -253,7 +260,8 @@ TEST_F(HostSoft, AllocatesNothingInFrames) {
         poses.setMatrixPose(1, matrices.data());
         poses.setTransform(2, glm::translate(glm::mat4(1.0f), glm::vec3(0.01f * static_cast<float>(n))));
         poses.write({1000 + n, 0.013 * n, false}, set.group().instances().slots(), bytes.data());
-        steps += poses.soft().listed(0).poses.count - poses.soft().listed(0).shown;
+        const runtime::PoseList::Round& listed = poses.soft().listed(0).rounds[0];
+        steps += listed.poses.count - listed.shown;
     }
     EXPECT_EQ(allocationsCounted(), before);
     EXPECT_GT(steps, 100u);

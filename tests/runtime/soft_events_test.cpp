@@ -1,5 +1,6 @@
 // What hosts do to what is soft: they hide, move and teleport instances, leave frames out, and set another
 // time.
+#include "tests/support/poses_of_host.h"
 #include "tests/support/recordings.h"
 #include "tests/support/soft_groups.h"
 #include "tests/support/test_view.h"
@@ -41,6 +42,13 @@ TEST_F(SoftEvents, AFrameThatIsCancelledHasNotBeen) {
         both.run(step);
         EXPECT_TRUE(both.same(0) && both.same(1)) << step;
     }
+}
+
+TEST_F(SoftEvents, AnotherCapacityBehindACancelledFrameChangesNothing) {
+    const ValidationGuard guard;
+    SoftPair both(context(SUPPLE_MAPPING_NARROW), 2);
+    expectTheSameBehindCancelledCapacities(
+        both, [&](uint32_t i) { return farthestApart(both.other.shown(i), both.plain.shown(i)); }, true);
 }
 
 TEST_F(SoftEvents, HiddenInstancesCatchUpOrSwingOn) {
@@ -369,6 +377,34 @@ TEST_F(SoftEvents, AreRecorded) {
         };
         expectReplayedFrom(begins, begins + 16, own, hop, 21);
     }
+}
+
+TEST_F(SoftEvents, WindsBetweenTwoFramesBlowEachInItsSteps) {
+    const ValidationGuard guard;
+    CrowdContext& own = context(SUPPLE_MAPPING_NARROW);
+    const SuppleAsset asset = own.asset(kCapedFile);
+    SoftGroup often(own, playedGroup(asset, 1, kSoft)), seldom(own, playedGroup(asset, 1, kSoft));
+    SoftGroup calm(own, playedGroup(asset, 1, kSoft));
+    for (const SoftGroup* const group : {&often, &seldom, &calm}) {
+        group->play(0, 0, 0.0);
+    }
+    double blown = 0.0;
+    for (uint32_t step = 0; step < 60; ++step) {
+        const double time = step / 60.0;
+        const glm::vec3 gust(0.0f, 0.0f, 8.0f * std::sin(0.3f * static_cast<float>(step)));
+        for (SoftGroup* const group : {&often, &seldom}) {
+            EXPECT_EQ(suppleSetTime(own.handle(), group->crowd.group(), time - 0.004), SUPPLE_OK);
+            group->setWind(gust);
+        }
+        often.frame(time);
+        calm.frame(time);
+        if (step % 6 == 0) {
+            seldom.frame(time);
+            EXPECT_EQ(seldom.shown(0), often.shown(0)) << step;
+            raise(blown, farthestApart(often.shown(0), calm.shown(0)));
+        }
+    }
+    EXPECT_GT(blown, 0.02);
 }
 
 TEST_F(SoftEvents, AbsurdPlacesLeaveThemAgain) {

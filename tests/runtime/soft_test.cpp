@@ -1,6 +1,6 @@
 // What is soft, on the device: the words of the CPU's own steps, whatever the frame rate, and what hosts do to
 // them.
-#include "runtime/spring_clock.h"
+#include "runtime/step_clock.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/played_soft.h"
@@ -8,6 +8,7 @@
 #include "tests/support/sixths.h"
 #include "tests/support/soft_groups.h"
 #include "tests/support/swinging_jiggles.h"
+#include "tests/support/test_view.h"
 #include "tests/support/worst.h"
 
 #include <algorithm>
@@ -39,15 +40,16 @@ public:
     void blow(const glm::vec3& wind, double time) { clock_.setWind(glm::dvec3(wind), time); }
     void endFrame(uint64_t frame) { clock_.endFrame(frame); }
     void travel(uint32_t i) { travels_[i] = true; }
+    void lighten() { light_ = true; }
 
     /// How many words of an instance's cage are others than the CPU's at a time.
     uint64_t off(uint32_t i, uint64_t frame, double time, const Floats& shown) {
-        const runtime::SpringPlace place{glm::dmat3(glm::mat3(places_[i])), glm::dvec3(places_[i][3])};
-        const runtime::SpringClock::Due due = clock_.take(i, frame, time, place, travels_[i]);
+        const runtime::StepPlace place{glm::dmat3(glm::mat3(places_[i])), glm::dvec3(places_[i][3])};
+        const runtime::StepClock::Due due = clock_.take(i, frame, time, place, travels_[i]);
         const runtime::Playback& playback = *group_.poses().playback();
         const std::span<const uint32_t> state = playback.stateOf(i);
         std::vector<glm::vec4> cage(group_.asset().character.cage.vertexCount());
-        twins_[i].run(state, playback.masks(), due);
+        twins_[i].run(state, playback.masks(), due, light_);
         twins_[i].show(state, playback.masks(), time, due.part, cage);
         uint64_t count = 0;
         for (size_t k = 0; k < shown.size(); ++k) {
@@ -60,9 +62,10 @@ public:
 private:
     runtime::Group& group_;
     skinning::DeformTable table_;
-    runtime::SpringClock clock_;
+    runtime::StepClock clock_;
     std::vector<glm::mat4> places_;
     std::vector<bool> travels_;
+    bool light_ = false; ///< cloths are
     std::vector<PlayedSoft> twins_;
 };
 
@@ -141,6 +144,46 @@ TEST_F(Soft, ClothsHaveTheWordsOfTheCpu) {
         for (const SuppleSkinning skinning : {SUPPLE_SKINNING_LINEAR, SUPPLE_SKINNING_CENTERS_OF_ROTATION}) {
             compareWithTheCpu(own, own.asset(kCapedFile), skinning, 0.9); // the cape's length
         }
+    }
+}
+
+TEST_F(Soft, LightClothsHaveTheWordsOfTheCpu) {
+    const ValidationGuard guard;
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        TestView view(own, 1u << 18);
+        SuppleGroupDesc desc = playedGroup(own.asset(kCapedFile), 2, kSoft);
+        desc.scheme = SUPPLE_SCHEME_PM;
+        desc.view = view.handle();
+        SoftGroup soft(own, desc), stiff(own, playedGroup(desc.asset, 2, 0));
+        ASSERT_TRUE(soft.crowd.valid() && stiff.crowd.valid());
+        view.camera.pixelsPerUnit = 56.0f * 1000.0f / soft.longestSide();
+        view.look({0.0f, 1.0f, 1000.0f});
+        SoftOfTheCpu cpu(soft);
+        cpu.lighten();
+        double moved = 0.0;
+        for (uint32_t f = 0; f < 20; ++f) {
+            const double time = 0.021 * f;
+            const glm::mat4 place = glm::translate(glm::mat4(1.0f), glm::vec3(0.05f * static_cast<float>(f), 0, 0));
+            for (uint32_t i = 0; i < 2; ++i) {
+                for (const SoftGroup* const group : {&soft, &stiff}) {
+                    if (f == 0) {
+                        group->play(i, i, 0.1 * i);
+                    }
+                }
+            }
+            soft.place(1, place);
+            stiff.place(1, place);
+            cpu.move(1, place, f == 0 ? 0.0 : 0.021 * (f - 1));
+            soft.frame(time);
+            stiff.frame(time);
+            for (uint32_t i = 0; i < 2; ++i) {
+                EXPECT_EQ(cpu.off(i, f + 1, time, soft.shown(i)), 0u) << time << ", " << i;
+                raise(moved, farthestApart(soft.shown(i), stiff.shown(i)));
+            }
+            cpu.endFrame(f + 1);
+        }
+        EXPECT_GT(moved, 0.02);
     }
 }
 
@@ -289,7 +332,9 @@ TEST_F(Soft, AllocateNothingInFrames) {
         playback.setTime(time);
         playback.setTransform(n % 4, glm::translate(glm::mat4(1.0f), glm::vec3(0.01f * static_cast<float>(n))));
         playback.listPoses(++frame, group.windows(), 4, [](uint32_t) { return true; });
-        steps += playback.listedPoses(0).poses.count - playback.listedPoses(0).shown;
+        for (const runtime::PoseList::Round& listed : playback.listedPoses(0).rounds) {
+            steps += listed.poses.count - listed.shown;
+        }
     }
     EXPECT_EQ(allocationsCounted(), before);
     EXPECT_GT(steps, 1000u);

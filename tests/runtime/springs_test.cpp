@@ -2,7 +2,7 @@
 #include "tests/support/springs.h"
 
 #include "cage/gltf/reader.h"
-#include "runtime/spring_clock.h"
+#include "runtime/step_clock.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/played_group.h"
@@ -63,8 +63,8 @@ public:
         uint64_t off = 0;
         ++frame;
         for (uint32_t i = 0; i < instances.size(); ++i) {
-            const runtime::SpringPlace place{glm::dmat3(glm::mat3(places[i])), glm::dvec3(places[i][3])};
-            const runtime::SpringClock::Due due = clock.take(i, frame, time, place, travels[i]);
+            const runtime::StepPlace place{glm::dmat3(glm::mat3(places[i])), glm::dvec3(places[i][3])};
+            const runtime::StepClock::Due due = clock.take(i, frame, time, place, travels[i]);
             const std::span<const uint32_t> state = playback.stateOf(instances[i].slot);
             for (uint32_t k = 0; k < due.count; ++k) {
                 const auto begins = due.settles     ? PlayedSprings::Begins::anew
@@ -91,32 +91,32 @@ public:
         return {begin, begin + static_cast<ptrdiff_t>(4 * size_t{group().instances().poseLayout().morphWeights})};
     }
 
-    runtime::SpringClock clock;
+    runtime::StepClock clock;
     std::vector<glm::mat4> places;
     std::vector<bool> travels;
     std::vector<PlayedSprings> twins;
     uint64_t frame = 0;
 };
 
-TEST(SpringClock, StepsAreOnAGridOfTimes) {
+TEST(StepClock, StepsAreOnAGridOfTimes) {
     for (int64_t n = -200'000; n < 200'000; n += 7) {
-        EXPECT_EQ(runtime::springStepAt(runtime::springTime(n)), n);
-        EXPECT_EQ(runtime::springStepAt(std::nextafter(runtime::springTime(n), -1e9)), n - 1);
+        EXPECT_EQ(runtime::lastStepAt(runtime::timeOfStep(n)), n);
+        EXPECT_EQ(runtime::lastStepAt(std::nextafter(runtime::timeOfStep(n), -1e9)), n - 1);
     }
     double sum = 0.0;
     for (int64_t n = 0; n < 100'000; ++n) {
-        EXPECT_LE(std::abs(runtime::springStepAt(sum) - n), 1);
+        EXPECT_LE(std::abs(runtime::lastStepAt(sum) - n), 1);
         sum += 1.0 / 60.0;
     }
 }
 
-TEST(SpringClock, SaysWhatIsDue) {
-    runtime::SpringClock clock(1, false);
+TEST(StepClock, SaysWhatIsDue) {
+    runtime::StepClock clock(1, false);
     uint64_t frame = 0;
     const auto at = [&](double step) { return clock.take(0, ++frame, step / 60.0 + 1e-9, {}, false); };
     EXPECT_TRUE(at(100).settles);
     EXPECT_EQ(at(100.5).count, 0u);
-    runtime::SpringClock::Due due = at(102.25);
+    runtime::StepClock::Due due = at(102.25);
     EXPECT_FALSE(due.settles);
     EXPECT_EQ(due.first, 101);
     EXPECT_EQ(due.count, 2u);
@@ -132,11 +132,11 @@ TEST(SpringClock, SaysWhatIsDue) {
     EXPECT_EQ(at(122).first, due.first) << "what was cancelled is due again";
 }
 
-TEST(SpringClock, PlacesGoStraightFromFrameToFrame) {
-    runtime::SpringClock clock(1, false);
-    const auto placed = [](double x) { return runtime::SpringPlace{glm::dmat3(1.0), glm::dvec3(x, 0.0, 0.0)}; };
+TEST(StepClock, PlacesGoStraightFromFrameToFrame) {
+    runtime::StepClock clock(1, false);
+    const auto placed = [](double x) { return runtime::StepPlace{glm::dmat3(1.0), glm::dvec3(x, 0.0, 0.0)}; };
     (void)clock.take(0, 1, 10.0 / 60.0, placed(0.0), false);
-    const runtime::SpringClock::Due due = clock.take(0, 2, 14.0 / 60.0, placed(4.0), false);
+    const runtime::StepClock::Due due = clock.take(0, 2, 14.0 / 60.0, placed(4.0), false);
     ASSERT_EQ(due.count, 4u);
     ASSERT_TRUE(due.moves);
     for (uint32_t k = 0; k < 4; ++k) {
@@ -144,47 +144,47 @@ TEST(SpringClock, PlacesGoStraightFromFrameToFrame) {
     }
     // Jumps are not moves; a place that is set while root motion travels stands from then on.
     clock.jump(0, 14.5 / 60.0);
-    const runtime::SpringClock::Due jumped = clock.take(0, 3, 15.0 / 60.0, placed(100.0), false);
+    const runtime::StepClock::Due jumped = clock.take(0, 3, 15.0 / 60.0, placed(100.0), false);
     EXPECT_EQ(jumped.jump, 0u);
     EXPECT_FALSE(clock.take(0, 3, 15.0 / 60.0, placed(100.0), false).moves);
     clock.place(0, 17.5 / 60.0);
-    const runtime::SpringClock::Due later = clock.take(0, 4, 19.0 / 60.0, placed(104.0), true);
+    const runtime::StepClock::Due later = clock.take(0, 4, 19.0 / 60.0, placed(104.0), true);
     ASSERT_EQ(later.count, 4u);
     const float moved[] = {0.0f, 0.0f, -4.0f, 0.0f};
     for (uint32_t k = 0; k < 4; ++k) {
         EXPECT_EQ(later.rows[k][0].w, moved[k]) << k;
     }
     // Turned and scaled: a quarter, in two steps.
-    const runtime::SpringPlace a{glm::dmat3(2.0), glm::dvec3(0.0)};
-    const runtime::SpringPlace b{glm::dmat3(glm::rotate(glm::dmat4(2.0), 1.5707963, glm::dvec3(0, 1, 0))),
-                                 glm::dvec3(0.0)};
-    const runtime::SpringPlace half = runtime::placeBetween(a, b, 0.5);
+    const runtime::StepPlace a{glm::dmat3(2.0), glm::dvec3(0.0)};
+    const runtime::StepPlace b{glm::dmat3(glm::rotate(glm::dmat4(2.0), 1.5707963, glm::dvec3(0, 1, 0))),
+                               glm::dvec3(0.0)};
+    const runtime::StepPlace half = runtime::placeBetween(a, b, 0.5);
     EXPECT_NEAR(half.linear[0][0], std::sqrt(2.0), 1e-6);
     EXPECT_EQ(runtime::placeBetween(a, b, 1.0), b);
     EXPECT_EQ(runtime::rowsOf(runtime::placeWithin({glm::dmat3(0.0), glm::dvec3(1.0)}, a))[0], glm::vec4(1, 0, 0, 0))
         << "flat";
 }
 
-TEST(SpringClock, CallsTakeEffectAtTheirTime) {
-    runtime::SpringClock clock(1, false);
+TEST(StepClock, CallsTakeEffectAtTheirTime) {
+    runtime::StepClock clock(1, false);
     (void)clock.take(0, 1, 10.0 / 60.0, {}, false);
     EXPECT_FALSE(clock.change(0, 10.5 / 60.0)) << "no step was due before";
     EXPECT_TRUE(clock.change(0, 12.5 / 60.0));
     EXPECT_FALSE(clock.change(0, 13.5 / 60.0)) << "the first call counts";
-    const runtime::SpringClock::Due due = clock.take(0, 2, 14.0 / 60.0, {}, false);
+    const runtime::StepClock::Due due = clock.take(0, 2, 14.0 / 60.0, {}, false);
     ASSERT_EQ(due.count, 4u);
     EXPECT_TRUE(due.before[0] && due.before[1] && !due.before[2] && !due.before[3]);
     EXPECT_FALSE(clock.hasBefore(0));
 }
 
-TEST(SpringClock, WindBlowsFromItsTimeOn) {
-    runtime::SpringClock clock(1, true);
-    const runtime::SpringPlace turned{
+TEST(StepClock, WindBlowsFromItsTimeOn) {
+    runtime::StepClock clock(1, true);
+    const runtime::StepPlace turned{
         glm::dmat3(glm::rotate(glm::dmat4(1.0), 1.5707963267948966, glm::dvec3(0, 1, 0))) * 2.0, glm::dvec3(5.0)};
     (void)clock.take(0, 1, 10.0 / 60.0, turned, false);
     clock.endFrame(1);
     clock.setWind({8.0, 2.0, 0.0}, 11.5 / 60.0);
-    const runtime::SpringClock::Due due = clock.take(0, 2, 13.0 / 60.0, turned, false);
+    const runtime::StepClock::Due due = clock.take(0, 2, 13.0 / 60.0, turned, false);
     clock.endFrame(2);
     ASSERT_EQ(due.count, 3u);
     EXPECT_TRUE(due.blows);
@@ -196,13 +196,84 @@ TEST(SpringClock, WindBlowsFromItsTimeOn) {
     EXPECT_TRUE(clock.take(0, 3, 16.0 / 60.0, turned, false).blows);
     clock.endFrame(3);
     clock.cancelFrame(3);
-    const runtime::SpringClock::Due again = clock.take(0, 4, 16.0 / 60.0, turned, false);
+    const runtime::StepClock::Due again = clock.take(0, 4, 16.0 / 60.0, turned, false);
     EXPECT_TRUE(again.wind[0] == due.wind[1] && again.wind[1] == glm::vec3(0.0f))
         << "as in the frame that was cancelled";
     clock.endFrame(4);
     EXPECT_FALSE(clock.take(0, 5, 18.0 / 60.0, turned, false).blows);
     EXPECT_EQ(runtime::velocityWithin({glm::dmat3(0.0), {}}, {1.0, 0.0, 0.0}), glm::vec3(0.0f)) << "flat";
     EXPECT_NEAR(runtime::velocityWithin({glm::dmat3(1e-9), {}}, {1.0, 0.0, 0.0}).x, 1e6f, 1.0f);
+}
+
+TEST(StepClock, SeveralWindsBlowEachInItsSteps) {
+    runtime::StepClock clock(1, false);
+    const auto take = [&](uint64_t frame, double step) {
+        const runtime::StepClock::Due due = clock.take(0, frame, step / 60.0 + 1e-9, {}, false);
+        clock.endFrame(frame);
+        return due;
+    };
+    (void)take(1, 10);
+    for (const double step : {10.5, 11.5, 13.5}) {
+        clock.setWind({step, 0.0, 0.0}, step / 60.0);
+    }
+    clock.setWind({7.0, 0.0, 0.0}, 13.5 / 60.0);
+    for (const uint64_t frame : {2u, 3u}) { // the second behind the first, which is cancelled
+        const runtime::StepClock::Due due = take(frame, 15);
+        ASSERT_EQ(due.count, 5u);
+        const float blows[] = {10.5f, 11.5f, 11.5f, 7.0f, 7.0f};
+        for (uint32_t k = 0; k < 5; ++k) {
+            EXPECT_EQ(due.wind[k].x, blows[k]) << k;
+        }
+        if (frame == 2) {
+            clock.cancelFrame(2);
+        }
+    }
+    for (uint32_t n = 0; n < 40; ++n) { // more than anybody needs
+        clock.setWind({n, 0.0, 0.0}, (15.5 + 0.1 * n) / 60.0);
+    }
+    const runtime::StepClock::Due due = take(4, 20);
+    EXPECT_EQ(due.wind[4].x, 39.0f);
+    EXPECT_EQ(due.wind[3].x, 35.0f);
+    EXPECT_EQ(due.wind[0].x, 5.0f);
+}
+
+TEST(StepClock, WhatIsSoftSleepsAndWakesByItself) {
+    runtime::StepClock clock(1, true);
+    uint64_t frame = 0;
+    const auto at = [&](double step, bool runsSoft) {
+        return clock.take(0, ++frame, step / 60.0 + 1e-9, {}, false, runsSoft);
+    };
+    EXPECT_FALSE(at(10, true).softSleeps);
+    EXPECT_FALSE(at(12, true).softWakes);
+    EXPECT_TRUE(at(15, false).softSleeps);
+    EXPECT_TRUE(at(15.5, true).softSleeps) << "it has no step to wake with";
+    runtime::StepClock::Due due = at(17, true);
+    EXPECT_TRUE(due.softWakes);
+    EXPECT_FALSE(due.settles) << "springs have not slept";
+    EXPECT_EQ(due.softSkipped, 5u) << "from step 12 to step 17";
+    clock.cancelFrame(frame);
+    EXPECT_EQ(at(18, true).softSkipped, 6u);
+    EXPECT_FALSE(at(19, true).softWakes);
+    EXPECT_TRUE(at(20, false).softSleeps);
+    due = at(40, true);
+    EXPECT_TRUE(due.settles && due.softWakes);
+    EXPECT_EQ(due.softSkipped, 21u);
+    clock.settle(0);
+    due = at(41, false);
+    EXPECT_TRUE(due.settles && due.softSleeps);
+    due = at(42, true);
+    EXPECT_TRUE(due.softWakes);
+    EXPECT_EQ(due.softSkipped, 0u) << "nothing of it is left";
+}
+
+TEST(StepClock, AnotherCapacityKeepsWhatACancelledFrameUndoes) {
+    runtime::StepClock clock(1, true);
+    (void)clock.take(0, 1, 10.0 / 60.0, {}, false);
+    (void)clock.take(0, 2, 12.0 / 60.0, {}, false);
+    runtime::StepClock larger(3, true);
+    larger.takeOver(clock, 1);
+    larger.cancelFrame(2);
+    EXPECT_EQ(larger.take(0, 3, 12.0 / 60.0, {}, false).first, 11);
 }
 
 TEST_F(Springs, StandInTheWind) {
@@ -620,7 +691,7 @@ TEST_F(Springs, AreRefusedWhereTheListOfPosesHasTooManyTexels) {
     WrappedVulkan& wrapped = wrappedVulkan();
     const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
     ASSERT_NE(device, nullptr);
-    constexpr uint32_t kTexels = 4096, kMost = kTexels / runtime::PoseList::kWordsOfSwinging;
+    constexpr uint32_t kTexels = 4096, kMost = kTexels / runtime::PoseList::kWordsOfStepping;
     const Result<cage::GlbFile> tube = cage::writeGlb(riggedTube({.segments = 8, .sides = 8, .joints = 4}));
     ASSERT_TRUE(tube);
     const std::vector<std::byte> swinging =

@@ -58,7 +58,7 @@ public:
     }
     /// Steps that it has posed.
     [[nodiscard]] uint32_t steps() const {
-        const runtime::PoseList::Window& listed = group_->group().poses().playback()->listedPoses(0);
+        const runtime::PoseList::Round& listed = group_->group().poses().playback()->listedPoses(0).rounds[0];
         return listed.poses.count - listed.shown;
     }
     [[nodiscard]] bool valid() const { return group_->crowd.valid(); }
@@ -103,24 +103,47 @@ TEST_F(SwingingSeen, WhoIsCulledSettlesUnlessAllArePosed) {
 
 TEST(StepDetail, FadesOutBelowASizeAndInAboveALargerOne) {
     runtime::StepDetail detail(2);
+    const auto springs = [&](uint32_t slot) { return detail.shown(slot).springs; };
     detail.setSize(0, 10.0f, 5.0);
-    EXPECT_EQ(detail.fade(0), 0.0f) << "who begins small does not fade";
+    EXPECT_EQ(springs(0), 0.0f) << "who begins small does not fade";
     detail.setSize(0, 28.0f, 5.1);
-    EXPECT_EQ(detail.fade(0), 0.0f);
+    EXPECT_EQ(springs(0), 0.0f);
     detail.setSize(0, 31.0f, 5.2);
-    EXPECT_NEAR(detail.fade(0), 0.4f, 1e-6f);
+    EXPECT_NEAR(springs(0), 0.4f, 1e-6f);
     detail.setSize(0, 25.0f, 5.3);
-    EXPECT_NEAR(detail.fade(0), 0.8f, 1e-6f);
+    EXPECT_NEAR(springs(0), 0.8f, 1e-6f);
     detail.setSize(0, 25.0f, 9.0);
-    EXPECT_EQ(detail.fade(0), 1.0f);
+    EXPECT_EQ(springs(0), 1.0f);
     detail.setSize(0, 23.0f, 9.1);
-    EXPECT_NEAR(detail.fade(0), 0.6f, 1e-6f);
+    EXPECT_NEAR(springs(0), 0.6f, 1e-6f);
     detail.setSize(0, 23.0f, 9.0);
-    EXPECT_EQ(detail.fade(0), 0.0f) << "time has gone back";
-    EXPECT_EQ(detail.fade(1), 1.0f) << "nobody knows its size";
+    EXPECT_EQ(springs(0), 0.0f) << "time has gone back";
+    EXPECT_EQ(springs(1), 1.0f) << "nobody knows its size";
     detail.forget(0);
-    EXPECT_EQ(detail.fade(0), 1.0f);
-    EXPECT_EQ(runtime::StepDetail().fade(0), 1.0f);
+    EXPECT_EQ(springs(0), 1.0f);
+    EXPECT_EQ(runtime::StepDetail().shown(0).springs, 1.0f);
+}
+
+TEST(StepDetail, HasFourSteps) {
+    runtime::StepDetail detail(1);
+    struct Row {
+        float pixels, springs, soft;
+        bool light;
+    };
+    double time = 0.0;
+    for (const Row& row : {Row{200.0f, 1.0f, 1.0f, false}, Row{65.0f, 1.0f, 1.0f, false}, Row{63.0f, 1.0f, 1.0f, true},
+                           Row{79.0f, 1.0f, 1.0f, true}, Row{47.0f, 1.0f, 0.0f, true}, Row{59.0f, 1.0f, 0.0f, true},
+                           Row{23.0f, 0.0f, 0.0f, true}, Row{29.0f, 0.0f, 0.0f, true}, Row{59.0f, 1.0f, 0.0f, true},
+                           Row{79.0f, 1.0f, 1.0f, true}, Row{81.0f, 1.0f, 1.0f, false}, Row{1.0f, 0.0f, 0.0f, true},
+                           Row{1000.0f, 1.0f, 1.0f, false}}) {
+        detail.setSize(0, row.pixels, time += 1.0);
+        EXPECT_EQ(detail.shown(0).springs, row.springs) << row.pixels;
+        EXPECT_EQ(detail.shown(0).soft, row.soft) << row.pixels;
+        EXPECT_EQ(detail.shown(0).lightCloths, row.light) << row.pixels;
+    }
+    detail.setSize(0, 40.0f, time += 0.125);
+    EXPECT_EQ(detail.shown(0).soft, 0.5f) << "what is soft fades out";
+    EXPECT_EQ(detail.shown(0).springs, 1.0f);
 }
 
 TEST_F(SwingingSeen, WhoIsSmallRunsNoStepsUnlessAllDo) {

@@ -57,11 +57,11 @@ void PlayedSoft::deformUnplaced(std::span<glm::vec4> cage) {
     skinning::deformLikeTheDevice(*table_, layout_, pose, cage);
 }
 
-void PlayedSoft::run(std::span<const uint32_t> state, std::span<const float> masks,
-                     const runtime::SpringClock::Due& due) {
+void PlayedSoft::run(std::span<const uint32_t> state, std::span<const float> masks, const runtime::StepClock::Due& due,
+                     bool light) {
     std::vector<glm::vec4> cage(character_->cage.vertexCount());
     for (uint32_t k = 0; k < due.count; ++k) {
-        twin_.pose(state, masks, runtime::springTime(due.first + k), skinning::PoseTwin::Stands::unplaced);
+        twin_.pose(state, masks, runtime::timeOfStep(due.first + k), skinning::PoseTwin::Stands::unplaced);
         const Affine way = (state[1] & kStateTravels) != 0 ? twin_.place() : identity();
         const Affine placed = combined(rowsOf(due.rows[k][0], due.rows[k][1], due.rows[k][2]), way_);
         const Affine move = combined(undone(way), placed);
@@ -70,7 +70,7 @@ void PlayedSoft::run(std::span<const uint32_t> state, std::span<const float> mas
         way_ = way;
         deformUnplaced(cage);
         runCloths(cage, {move, worldDirection(way, due.down[k]), worldVelocity(way, due.wind[k]), due.settles,
-                         due.skipped != 0, jumps});
+                         due.skipped != 0, jumps, light});
         for (size_t i = 0; i < vertices_.size(); ++i) {
             const cage::Jiggle& own = character_->jiggles[character_->weights.jiggles[vertices_[i]].index];
             jiggling_[i] =

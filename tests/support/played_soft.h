@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
-#include "runtime/spring_clock.h"
+#include "runtime/step_clock.h"
 #include "shaders/soft/jiggle.h"
 #include "skinning/cloth_twin.h"
 #include "skinning/deform_twin.h"
@@ -23,7 +23,9 @@ public:
                const skinning::PoseLayout& layout, uint32_t transition);
 
     /// Runs the steps that are due of what `state` plays.
-    void run(std::span<const uint32_t> state, std::span<const float> masks, const runtime::SpringClock::Due& due);
+    /// `light`: cloths are springs.
+    void run(std::span<const uint32_t> state, std::span<const float> masks, const runtime::StepClock::Due& due,
+             bool light = false);
     /// Fills the cage that is shown at a time.
     void show(std::span<const uint32_t> state, std::span<const float> masks, double time, float part,
               std::span<glm::vec4> cage);

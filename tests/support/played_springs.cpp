@@ -16,7 +16,7 @@ PlayedSprings::PlayedSprings(const skinning::ClipTable& table, const skinning::P
 
 void PlayedSprings::step(std::span<const uint32_t> state, std::span<const float> masks, int64_t step, Begins begins,
                          std::optional<std::array<glm::vec4, 3>> moved) {
-    const double time = runtime::springTime(step);
+    const double time = runtime::timeOfStep(step);
     const bool travels = (state[1] & kStateTravels) != 0;
     Affine way = identity();
     if (travels) {

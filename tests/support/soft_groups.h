@@ -5,6 +5,7 @@
 #include "tests/support/soft_assets.h"
 #include "tests/support/worst.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <vector>
@@ -29,6 +30,17 @@ public:
         const size_t stride = size_t{4} * group().instances().cageStride();
         const auto begin = cages.begin() + static_cast<ptrdiff_t>(instances[i].slot * stride);
         return {begin, begin + static_cast<ptrdiff_t>(4 * size_t{character().cage.vertexCount()})};
+    }
+
+    /// Of the box that holds the cage at rest.
+    [[nodiscard]] float longestSide() const {
+        glm::vec3 low(character().cage.positions[0]), high(low);
+        for (const glm::vec3& p : character().cage.positions) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        const glm::vec3 size = high - low;
+        return std::max({size.x, size.y, size.z});
     }
 
     Floats cages;

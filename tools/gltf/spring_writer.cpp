@@ -1,9 +1,11 @@
 #include "tools/gltf/spring_writer.h"
 
 #include "cage/skeleton.h"
+#include "cage/spring_tails.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace supple::cage::gltf {
@@ -70,14 +72,8 @@ json writeSpring(const Spring& spring, json joints) {
 class Trees {
 public:
     Trees(const Skeleton& skeleton, json& nodes)
-        : skeleton_(skeleton), nodes_(nodes), firstChild_(skeleton.nodes.size(), kNone),
-          jointOf_(skeleton.nodes.size(), kNoJoint), places_(restPlaces(skeleton)) {
-        for (uint32_t node = 0; node < skeleton.nodes.size(); ++node) {
-            if (const uint32_t parent = skeleton.nodes[node].parent; parent != kNone) {
-                firstChild_[parent] = std::min(firstChild_[parent], node);
-            }
-        }
-    }
+        : skeleton_(skeleton), nodes_(nodes), firstChild_(firstChildren(skeleton)),
+          jointOf_(skeleton.nodes.size(), kNoJoint), places_(restPlaces(skeleton)) {}
 
     void write(const Spring& spring, json& springs) {
         for (size_t j = 0; j < spring.joints.size(); ++j) {
@@ -116,27 +112,16 @@ private:
 
     /// A node at the tail of a chain's last joint; kNone if it has none, and so does not swing.
     uint32_t addTail(uint32_t node) {
-        const uint32_t child = firstChild_[node], parent = skeleton_.nodes[node].parent;
-        const glm::dvec3 head(places_[node][3]);
-        glm::dvec3 tail = head;
-        if (child != kNone) {
-            tail = glm::dvec3(places_[child][3]);
-        } else if (parent != kNone) {
-            const glm::dvec3 way = head - glm::dvec3(places_[parent][3]);
-            const double length = glm::length(way);
-            tail += length > kShortestWay ? way * (kLeafTail / length) : glm::dvec3(0.0);
-        }
-        if (tail == head || glm::determinant(places_[node]) == 0.0) {
+        const std::optional<glm::dvec3> tail = tailInTree(skeleton_, firstChild_, places_, node);
+        if (!tail || *tail == glm::dvec3(places_[node][3]) || glm::determinant(places_[node]) == 0.0) {
             return kNone;
         }
         const auto added = static_cast<uint32_t>(nodes_.size());
-        const glm::vec3 offset(glm::inverse(places_[node]) * glm::dvec4(tail, 1.0));
+        const glm::vec3 offset(glm::inverse(places_[node]) * glm::dvec4(*tail, 1.0));
         nodes_.push_back({{"name", skeleton_.nodes[node].name + "_tail"}, {"translation", numbers(offset)}});
         nodes_[node]["children"].push_back(added);
         return added;
     }
-
-    static constexpr double kLeafTail = 0.07, kShortestWay = 1e-6; // as skinning/spring_table.cpp has them
 
     const Skeleton& skeleton_;
     json& nodes_;

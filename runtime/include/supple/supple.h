@@ -1026,9 +1026,9 @@ typedef enum SuppleGroupFlags {
     /** Groups of a view: what the camera sees does not matter for poses. In a view with SUPPLE_VIEW_CULL all visible
      * instances are posed and deformed. Without this flag, those that surely are out of sight are left out before they
      * are posed. Use it if you read poses or deformed cages of instances that the camera does not see. In any view,
-     * steps of SUPPLE_GROUP_SPRINGS and SUPPLE_GROUP_SOFT are run however small an instance is on the screen. Without
-     * this flag, what plays fades out below 24 pixels, and runs none (docs/soft.md). Use it if replays with other
-     * cameras must have the same bits. */
+     * steps of SUPPLE_GROUP_SPRINGS and SUPPLE_GROUP_SOFT are run in full however small an instance is on the screen.
+     * Without this flag, what plays has less of them below 64 pixels, and none below 24 (docs/soft.md). Use it if
+     * replays with other cameras must have the same bits. */
     SUPPLE_GROUP_POSE_UNSEEN = 512,
     /** With SUPPLE_POSES_SET or SUPPLE_POSES_PLAYBACK: instances may have modifiers (suppleSetModifiers). These cost 2
      * KiB of memory per instance, on the device if it plays. */
@@ -1204,8 +1204,8 @@ SUPPLE_API SuppleResult suppleSetPartVisible(SuppleContext context, SuppleInstan
 SUPPLE_API SuppleResult suppleTeleport(SuppleContext context, SuppleInstance instance);
 /** Sets the wind about the instances of a group: float[3], a velocity in the world, in its units a second; 0 at first.
  * It carries along what swings (SUPPLE_GROUP_SPRINGS: docs/springs.md) and cloth (SUPPLE_GROUP_SOFT: docs/cloth.md), by
- * their drag in the air; elsewhere it has no effect. It blows from the group's time at the call on, in groups with
- * SUPPLE_POSES_SET from that of their last suppleRecord on. A gust is one call a frame. Errors: not finite, or beyond
+ * their drag in the air; elsewhere it has no effect. It blows from the group's time at the call on until that of the
+ * next call, in groups with SUPPLE_POSES_SET from that of their last suppleRecord on. Errors: not finite, or beyond
  * SUPPLE_MAX_WIND; the group draws the instances of another one, whose wind it is. */
 SUPPLE_API SuppleResult suppleSetWind(SuppleContext context, SuppleGroup group, const float* wind);
 /** Places an instance. transform is an affine float[16] (last row 0, 0, 0, 1), applied after the pose. Surface vertices
