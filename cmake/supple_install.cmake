@@ -32,6 +32,7 @@ install(FILES
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_character.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_playback.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_points.h
+    ${supple_SOURCE_DIR}/runtime/include/supple/supple_queries.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_rays.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_prepare.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_recording.h

@@ -18,7 +18,7 @@ FLOORS = [line.split() for line in """
     base/ shaders/shared/ shaders/supple_surface.glsl shaders/trim.glsl shaders/supple_depth_pyramid.comp
     shaders/surface/ shaders/pose/ shaders/deform/
     shaders/lod/ shaders/soft/
-    shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/ shaders/recording/ shaders/points/
+    shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/ shaders/recording/ shaders/points/ shaders/queries/
     shaders/prep/ shaders/pm/ shaders/subdivision/ shaders/blend/ shaders/polygons/
     shaders/chains/ shaders/fragments/
     shaders/catmull_clark/ shaders/loop/
