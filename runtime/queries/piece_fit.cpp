@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace supple::runtime {
@@ -100,16 +101,24 @@ PieceFitter::PieceFitter(const CpuGroup& group) : group_(group) {
     }
 }
 
-void PieceFitter::weigh(const FacePart& part, const glm::dvec2& at, size_t column,
-                        std::vector<VertexShares>& out) const {
-    const CpuGroup::Found found = group_.find(part.at(at));
-    const CpuGroup::Part& own = group_.parts()[found.part];
-    cpu::PointWeights weights;
-    own.surface->weigh(found.place.place, weights);
-    for (const cpu::VertexWeight& entry : weights.entries()) {
-        const uint32_t vertex = own.piece != nullptr ? own.piece->of.vertices[entry.vertex] : entry.vertex;
-        sharesOf(vertex, out).of[column] += entry.position;
+const std::vector<PieceFitter::Weight>& PieceFitter::weightsAt(const FacePart& part, const glm::dvec2& at) {
+    if (face_ != part.face) {
+        face_ = part.face;
+        known_.clear();
     }
+    const SuppleSurfacePoint point = part.at(at);
+    std::vector<Weight>& own = known_[{static_cast<float>(point.side), point.a, point.b}];
+    if (!own.empty()) {
+        return own;
+    }
+    const CpuGroup::Found found = group_.find(point);
+    const CpuGroup::Part& of = group_.parts()[found.part];
+    cpu::PointWeights weights;
+    of.surface->weigh(found.place.place, weights);
+    for (const cpu::VertexWeight& entry : weights.entries()) {
+        own.push_back({of.piece != nullptr ? of.piece->of.vertices[entry.vertex] : entry.vertex, entry.position});
+    }
+    return own;
 }
 
 Coefficients PieceFitter::coefficientsOf(bool isSquare, const Coefficients& values) const {
@@ -132,31 +141,39 @@ Coefficients PieceFitter::coefficientsOf(bool isSquare, const Coefficients& valu
     return out;
 }
 
-PieceFit PieceFitter::fit(const FacePart& part) const {
+double PieceFitter::errorOf(const FacePart& part, const PieceFit& fit) {
+    double error = 0.0;
+    for (const glm::dvec2& at : part.isSquare ? kSquareChecks : kTriangleChecks) {
+        std::vector<VertexShares> differences;
+        for (const Weight& weight : weightsAt(part, at)) {
+            sharesOf(weight.vertex, differences).of[0] += weight.share;
+        }
+        const Coefficients basis = basisAt(part.isSquare, at);
+        for (const VertexShares& own : fit.vertices) {
+            sharesOf(own.vertex, differences).of[0] -=
+                std::inner_product(basis.begin(), basis.end(), own.of.begin(), 0.0);
+        }
+        double sum = 0.0;
+        for (const VertexShares& own : differences) {
+            sum += std::abs(own.of[0]);
+        }
+        error = std::max(error, sum);
+    }
+    return error;
+}
+
+PieceFit PieceFitter::fit(const FacePart& part) {
     PieceFit fit;
     const std::vector<glm::dvec2> points = pointsOf(part.isSquare);
     for (size_t k = 0; k < points.size(); ++k) {
-        weigh(part, points[k], k, fit.vertices);
+        for (const Weight& weight : weightsAt(part, points[k])) {
+            sharesOf(weight.vertex, fit.vertices).of[k] += weight.share;
+        }
     }
     for (VertexShares& own : fit.vertices) {
         own.of = coefficientsOf(part.isSquare, own.of);
     }
-    for (const glm::dvec2& at : part.isSquare ? kSquareChecks : kTriangleChecks) {
-        std::vector<VertexShares> there;
-        weigh(part, at, 0, there);
-        const Coefficients basis = basisAt(part.isSquare, at);
-        for (const VertexShares& own : fit.vertices) {
-            double& difference = sharesOf(own.vertex, there).of[0];
-            for (size_t k = 0; k < points.size(); ++k) {
-                difference -= basis[k] * own.of[k];
-            }
-        }
-        double sum = 0.0;
-        for (const VertexShares& own : there) {
-            sum += std::abs(own.of[0]);
-        }
-        fit.error = std::max(fit.error, sum);
-    }
+    fit.error = errorOf(part, fit);
     return fit;
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace supple::runtime {
@@ -26,19 +27,27 @@ struct PieceFit {
 class PieceFitter {
 public:
     explicit PieceFitter(const CpuGroup& group);
-    /// The group has the part.
-    [[nodiscard]] PieceFit fit(const FacePart& part) const;
+    /// The group has the part. What points of its face weigh is kept until the next face.
+    [[nodiscard]] PieceFit fit(const FacePart& part);
 
 private:
     static constexpr size_t kQuartic = 15;
 
-    /// Adds what each vertex has of a point, as number `column`.
-    void weigh(const FacePart& part, const glm::dvec2& at, size_t column, std::vector<VertexShares>& out) const;
+    struct Weight {
+        uint32_t vertex = 0;
+        double share = 0.0;
+    };
+    /// What vertices have of a point.
+    const std::vector<Weight>& weightsAt(const FacePart& part, const glm::dvec2& at);
+    /// The most that the weights of a polynomial differ by in sum.
+    [[nodiscard]] double errorOf(const FacePart& part, const PieceFit& fit);
     /// Values at the points become coefficients.
     [[nodiscard]] std::array<double, shared::kPieceCoefficients>
     coefficientsOf(bool isSquare, const std::array<double, shared::kPieceCoefficients>& values) const;
 
     const CpuGroup& group_;
+    uint32_t face_ = SUPPLE_NO_FACE;                                 ///< whose points are kept
+    std::map<std::array<float, 3>, std::vector<Weight>> known_;      ///< by side and place
     std::array<std::array<double, kQuartic>, kQuartic> toQuartic_{}; ///< from values at points
 };
 

@@ -20,9 +20,9 @@ using namespace shared;
 
 /// A polynomial is near enough if the weights of its points differ from the surface's by this much in sum: then it lies
 /// within that part of the size of the vertices around it.
-constexpr double kNearEnough = 2e-4;
-/// How often what is not near enough is quartered, once the face is cut.
-constexpr uint32_t kMostQuarterings = 2;
+constexpr double kNearEnough = 1e-3;
+/// How often parts that are not near enough are quartered: to this part of a face's side.
+constexpr double kLeastSize = 0.25;
 /// What hangs on more vertices is not quartered: its table would be large.
 constexpr size_t kMostToQuarter = 64;
 constexpr size_t kMostVertices = 4096;
@@ -162,7 +162,7 @@ public:
 
     Status add(uint32_t face, uint32_t sides) {
         for (const FittedPart& fitted : cut(face, sides).parts) {
-            if (Status added = add(fitted, 0); !added) {
+            if (Status added = add(fitted, fitted.part.size); !added) {
                 return added;
             }
         }
@@ -172,19 +172,18 @@ public:
 
 private:
     static bool isNearEnough(const PieceFit& fit) { return fit.error <= kNearEnough; }
-    Status add(const FittedPart& fitted, uint32_t quarterings) {
-        if (isNearEnough(fitted.fit) || quarterings == kMostQuarterings ||
-            fitted.fit.vertices.size() > kMostToQuarter) {
+    Status add(const FittedPart& fitted, double size) {
+        if (isNearEnough(fitted.fit) || size <= kLeastSize || fitted.fit.vertices.size() > kMostToQuarter) {
             return writer_.add(fitted);
         }
         for (const FacePart& quarter : fitted.part.quarters()) {
-            if (Status added = add({quarter, fitter_.fit(quarter)}, quarterings + 1); !added) {
+            if (Status added = add({quarter, fitter_.fit(quarter)}, 0.5 * size); !added) {
                 return added;
             }
         }
         return success();
     }
-    [[nodiscard]] Cut tried(const std::vector<FacePart>& parts) const {
+    [[nodiscard]] Cut tried(const std::vector<FacePart>& parts) {
         Cut cut;
         for (const FacePart& part : parts) {
             cut.parts.push_back({part, fitter_.fit(part)});
@@ -209,14 +208,14 @@ private:
                 best = std::move(own);
                 last = way;
             }
-            if (best.missed <= kMissedByOneCorner) {
+            if (best.missed <= kMissedByCorners) {
                 break;
             }
         }
         return best;
     }
-    /// Of four quarters one is not near enough: that at an extraordinary vertex.
-    static constexpr double kMissedByOneCorner = 0.25;
+    /// Half of the parts lie at extraordinary vertices.
+    static constexpr double kMissedByCorners = 0.5;
 
     PieceFitter fitter_;
     PieceWriter writer_;

@@ -19,19 +19,19 @@ struct TestRay {
     glm::vec3 origin{0.0f}, direction{0.0f};
 };
 
-/// The surface in triangles, 32 along a side of each piece.
+/// The surface in triangles, so many along a side of each piece.
 class DenseTriangles {
 public:
-    DenseTriangles(const Surfaces& surfaces, const std::vector<glm::vec3>& cage)
-        : pieces_(runtime::piecesOf(*surfaces)) {
+    DenseTriangles(const Surfaces& surfaces, const std::vector<glm::vec3>& cage, uint32_t along = 32)
+        : along_(along), pieces_(runtime::piecesOf(*surfaces)) {
         runtime::CpuPose pose(surfaces);
         EXPECT_TRUE(pose.build(reinterpret_cast<const std::byte*>(cage.data()), sizeof(cage[0]), {}));
         glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
         for (const runtime::Piece& piece : pieces_) {
             std::vector<SuppleSurfacePoint> points;
-            for (uint32_t j = 0; j <= kAlong; ++j) {
-                for (uint32_t i = 0; i <= kAlong - (piece.isQuad ? 0 : j); ++i) {
-                    points.push_back(piece.at(i / double{kAlong}, j / double{kAlong}));
+            for (uint32_t j = 0; j <= along_; ++j) {
+                for (uint32_t i = 0; i <= along_ - (piece.isQuad ? 0 : j); ++i) {
+                    points.push_back(piece.at(static_cast<double>(i) / along_, static_cast<double>(j) / along_));
                 }
             }
             std::vector<SuppleSurfaceJet> jets(points.size());
@@ -58,10 +58,10 @@ public:
             if (!meets(ray, own)) {
                 continue;
             }
-            for (uint32_t j = 0; j < kAlong; ++j) {
+            for (uint32_t j = 0; j < along_; ++j) {
                 const bool isQuad = pieces_[p].isQuad;
-                const uint32_t length = kAlong + 1 - (isQuad ? 0 : j);
-                const glm::dvec3* const row = &own.positions[isQuad ? j * length : j * (kAlong + 1) - j * (j - 1) / 2];
+                const uint32_t length = along_ + 1 - (isQuad ? 0 : j);
+                const glm::dvec3* const row = &own.positions[isQuad ? j * length : j * (along_ + 1) - j * (j - 1) / 2];
                 for (uint32_t i = 0; i + 1 < length; ++i) {
                     const glm::dvec3* const next = row + length + i;
                     best = std::min(best, meet(ray, row[i], row[i + 1], next[0]));
@@ -78,7 +78,6 @@ public:
     double extent = 0.0;
 
 private:
-    static constexpr uint32_t kAlong = 32;
     struct Samples {
         std::vector<glm::dvec3> positions;
         glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -97,6 +96,7 @@ private:
         return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 ? t : std::numeric_limits<double>::infinity();
     }
 
+    uint32_t along_;
     std::vector<runtime::Piece> pieces_;
     std::vector<Samples> samples_;
 };
