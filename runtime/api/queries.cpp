@@ -52,8 +52,14 @@ std::optional<Error> faultOf(const SuppleQueryDesc& desc, uint32_t most) {
     if (desc.rayCount > 0 && (desc.hostRays != nullptr) == ofDevice) {
         return Error{ErrorCode::nullPointer, "rays must come from hostRays or from a buffer, not both"};
     }
-    if (ofDevice && (desc.rays.offset % 4 != 0 || desc.rays.size / sizeof(SuppleRay) < desc.rayCount)) {
-        return Error{ErrorCode::range, "the range of rays is too small, or its offset is no multiple of 4"};
+    if (desc.hostTriangles != nullptr && desc.triangles.buffer != VK_NULL_HANDLE) {
+        return Error{ErrorCode::nullPointer, "triangles must come from hostTriangles or from a buffer, not both"};
+    }
+    for (const SuppleBufferRange& range : {desc.rays, desc.triangles}) {
+        const bool fits = range.offset % 4 == 0 && range.size / sizeof(SuppleRay) >= desc.rayCount;
+        if (range.buffer != VK_NULL_HANDLE && !fits) {
+            return Error{ErrorCode::range, "a range is too small for the rays, or its offset is no multiple of 4"};
+        }
     }
     return std::nullopt;
 }

@@ -1,6 +1,7 @@
 // The query pools of a context.
 #include "gpu/barriers.h"
 #include "runtime/context.h"
+#include "runtime/queries/triangle_faces.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,8 +18,8 @@ constexpr VkAccessFlags2 kAll =
 
 QuerySource sourceOf(const std::shared_ptr<Group>& group) {
     const PointSource points = group->pointSource();
-    return {points.device, points.listing, points.cages, points.cageStride, group->asset().character.cage.vertexCount(),
-            group};
+    const uint32_t vertices = group->asset().character.cage.vertexCount();
+    return {points.device, points.listing, points.cages, points.cageStride, vertices, &group->surfaces(), group};
 }
 
 /// Lanes own hits by number, and kNothingMet is none.
@@ -144,6 +145,7 @@ Status Context::askGroups(QueryPool& pool, const SuppleQueryDesc& desc) const {
         const Group* const group = member.group != nullptr ? groups.at(member.id) : nullptr;
         member.isAsked = desc.groups == nullptr && group != nullptr && group->askedFrame() == frame_;
         member.isEmpty = group != nullptr && group->waitsIn(frame_);
+        member.rate = group != nullptr ? rateOf(group->surfaces()) : 1;
     }
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
         const std::string name = "suppleRecordQueries: group " + std::to_string(g);
@@ -184,8 +186,11 @@ Status Context::recordQueries(VkCommandBuffer commandBuffer, QueryPool& pool, co
         const std::scoped_lock lock(uploading_);
         pool.recordStatics(commandBuffer, frame_);
     }
-    const QueryPool::Rays rays{desc.hostRays, desc.rays.buffer, desc.rays.offset, desc.rayCount};
-    pool.record(commandBuffer, frame_, rays, (desc.flags & SUPPLE_QUERY_READ_BACK) != 0);
+    pool.record(commandBuffer, frame_,
+                {{desc.hostRays, desc.rays.buffer, desc.rays.offset},
+                 {desc.hostTriangles, desc.triangles.buffer, desc.triangles.offset},
+                 desc.rayCount,
+                 (desc.flags & SUPPLE_QUERY_READ_BACK) != 0});
     if (desc.after.stages != 0) {
         gpu::memoryBarrier(*device_, commandBuffer, {kCompute | kTransfer, kWrites},
                            {desc.after.stages, desc.after.access});

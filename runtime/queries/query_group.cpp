@@ -1,5 +1,7 @@
 #include "runtime/queries/query_group.h"
 
+#include "runtime/queries/triangle_faces.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -32,6 +34,7 @@ Result<std::shared_ptr<QueryPieces>> QueryPieces::create(const gpu::Device& devi
     }
     auto pieces = std::make_shared<QueryPieces>();
     pieces->table = std::move(*made);
+    pieces->ofFaces = std::move(table.ofFaces);
     pieces->count = table.pieceCount;
     pieces->reach = table.reach;
     return pieces;
@@ -44,7 +47,7 @@ Result<std::shared_ptr<QueryGroup>> QueryGroup::create(QuerySource source, const
     group->source_ = std::move(source);
     group->kernels_ = &kernels;
     group->pieces_ = std::move(pieces);
-    Status status = group->createBoxes();
+    Status status = group->createBuffers();
     status = status ? group->createSets(buffers) : status;
     if (!status) {
         return status.error();
@@ -52,14 +55,24 @@ Result<std::shared_ptr<QueryGroup>> QueryGroup::create(QuerySource source, const
     return group;
 }
 
-Status QueryGroup::createBoxes() {
+Status QueryGroup::createBuffers() {
     const gpu::BufferRequest request{"supple query boxes", kBoxBytes * source_.listing->windows().capacity,
                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryPurpose::scratch};
     Result<gpu::BufferSet> made = gpu::BufferSet::create(*source_.device, {&request, 1}, gpu::MemoryKind::deviceLocal);
-    if (made) {
-        boxes_ = std::move(*made);
+    if (!made) {
+        return made.error();
     }
-    return made ? success() : Status(made.error());
+    boxes_ = std::move(*made);
+    const auto words =
+        std::make_shared<const std::vector<uint32_t>>(triangleFaces(*source_.surfaces, pieces_->ofFaces));
+    const gpu::StaticRequest triangles{"supple query triangles", VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                       std::as_bytes(std::span(*words)), words};
+    Result<gpu::StaticBuffers> table = gpu::StaticBuffers::create(*source_.device, {&triangles, 1});
+    if (!table) {
+        return table.error();
+    }
+    triangles_ = std::make_unique<gpu::StaticBuffers>(std::move(*table));
+    return success();
 }
 
 Status QueryGroup::createSets(const QueryBuffers& buffers) {
@@ -88,6 +101,7 @@ Status QueryGroup::createSets(const QueryBuffers& buffers) {
             {kHitBinding, {buffers.hits, 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
             {kInstanceBinding, {list, 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
             {kInstanceTexelBinding, {}, instances},
+            {kTriangleBinding, {triangles_->buffer(0), 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
         };
         if (status) {
             sets_.write(device, kernels_->layout(), w, resources);
@@ -108,7 +122,7 @@ uint32_t QueryGroup::lanes() const {
 
 gpu::MemoryUse QueryGroup::memoryUse() const {
     gpu::MemoryUse use = boxes_.use();
-    use += pieces_->table.use();
+    forStatics([&](const gpu::StaticBuffers& table) { use += table.use(); });
     return use;
 }
 
@@ -123,6 +137,8 @@ void QueryGroup::forWindows(const Batch& batch, F&& record) const {
     push.firstLane = batch.firstLane;
     push.group = batch.group;
     push.reach = pieces_->reach;
+    push.firstTriangle = batch.firstTriangle;
+    push.rate = batch.rate;
     for (uint32_t w = 0; w < windows.count(); ++w) {
         push.firstEntry = windows.firstEntry(w);
         push.instanceCount = batch.isEmpty ? 0 : windows.listed[w].count;
@@ -146,6 +162,16 @@ void QueryGroup::recordPick(gpu::Dispatches& dispatches, const Batch& batch, uin
         push.work = work;
         if (push.instanceCount > 0 && push.pieceCount > 0) {
             kernels_->recordPick(dispatches, set, push);
+        }
+    });
+}
+
+void QueryGroup::recordRefine(gpu::Dispatches& dispatches, const Batch& batch) const {
+    const InstanceWindows& windows = source_.listing->windows();
+    forWindows(batch, [&](const gpu::BoundSet& set, QueryPush push) {
+        if (push.instanceCount > 0) {
+            push.instanceCount = windows.slots(push.firstSlot / windows.size);
+            kernels_->recordRefine(dispatches, set, push);
         }
     });
 }

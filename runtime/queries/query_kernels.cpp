@@ -3,6 +3,7 @@
 #include "shaders/queries_boxes_comp.h"
 #include "shaders/queries_finish_comp.h"
 #include "shaders/queries_pick_comp.h"
+#include "shaders/queries_refine_comp.h"
 #include "supple/supple_queries.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ using namespace supple::shared;
 namespace {
 
 static_assert(sizeof(QueryPush) <= gpu::kPushConstantBytes);
-static_assert(sizeof(SuppleRay) == 32 && sizeof(SuppleHit) == 64);
+static_assert(sizeof(SuppleRay) == 32 && sizeof(SuppleTriangleHit) == 32 && sizeof(SuppleHit) == 64);
 
 /// Lanes of a dispatch at most, so that their numbers have room in 32 bits.
 constexpr uint64_t kMostLanes = uint64_t{1} << 30;
@@ -28,6 +29,7 @@ Result<QueryKernels> QueryKernels::create(const gpu::Device& device, gpu::Pipeli
         gpu::storage(kRayBinding),           gpu::storage(kBestBinding),
         gpu::storage(kQueryBoxBinding),      gpu::storage(kHitBinding),
         gpu::wideStorage(kInstanceBinding),  gpu::narrowTexels(kInstanceTexelBinding),
+        gpu::storage(kTriangleBinding),
     };
     QueryKernels made;
     made.device_ = &device;
@@ -45,13 +47,15 @@ Status QueryKernels::prepare() {
     gpu::Pipelines::Batch batch(*pipelines_);
     const gpu::Kernel boxes = batch.get(layout_, queries_boxes_comp, {}, "supple queries, boxes"),
                       pick = batch.get(layout_, queries_pick_comp, {}, "supple queries, pick"),
-                      finish = batch.get(layout_, queries_finish_comp, {}, "supple queries, hits");
+                      finish = batch.get(layout_, queries_finish_comp, {}, "supple queries, hits"),
+                      refine = batch.get(layout_, queries_refine_comp, {}, "supple queries, refine");
     if (const Status made = batch.make(); !made) {
         return made;
     }
     boxes_ = boxes;
     pick_ = pick;
     finish_ = finish;
+    refine_ = refine;
     return success();
 }
 
@@ -73,6 +77,11 @@ void QueryKernels::recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& 
         const uint64_t blocks = (push.rayCount - first + kRaysPerLane - 1) / kRaysPerLane;
         dispatches.dispatch(pick_, set, push, (lanes * blocks + local - 1) / local);
     }
+}
+
+void QueryKernels::recordRefine(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
+    const uint64_t local = device_->mapping.localSize;
+    dispatches.dispatch(refine_, set, push, (push.rayCount + local - 1) / local);
 }
 
 void QueryKernels::recordFinish(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {

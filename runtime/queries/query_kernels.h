@@ -19,13 +19,15 @@ public:
     void recordBoxes(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
     /// For all rays, by as many dispatches as lanes can be numbered in.
     void recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, shared::QueryPush push) const;
+    /// Hits of triangles, over misses.
+    void recordRefine(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
     void recordFinish(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
 
 private:
     const gpu::Device* device_ = nullptr;
     gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::Kernel boxes_, pick_, finish_;
+    gpu::Kernel boxes_, pick_, finish_, refine_;
 };
 
 } // namespace supple::runtime

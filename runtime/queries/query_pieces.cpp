@@ -70,6 +70,7 @@ public:
                    : Status(Error{ErrorCode::limit, "the pieces of its surfaces are more than " +
                                                         std::to_string(mostElements_) + " elements of 16 bytes"});
     }
+    [[nodiscard]] uint32_t pieceCount() const { return pieceCount_; }
     PieceTable finish() {
         // The vertices of all pieces stand behind the heads, then all shares.
         const auto firstVertex = static_cast<uint32_t>(heads_.size() / 4),
@@ -78,7 +79,7 @@ public:
             heads_[head + 2] += firstVertex;
             heads_[head + 3] += firstShare;
         }
-        PieceTable table{std::move(heads_), pieceCount_, reach_};
+        PieceTable table{std::move(heads_), {}, pieceCount_, reach_};
         table.words.insert(table.words.end(), vertices_.begin(), vertices_.end());
         table.words.insert(table.words.end(), shares_.begin(), shares_.end());
         return table;
@@ -158,17 +159,24 @@ private:
 
 class PieceBuilder {
 public:
-    PieceBuilder(const CpuGroup& group, uint64_t mostElements) : fitter_(group), writer_(mostElements) {}
+    PieceBuilder(const CpuGroup& group, uint64_t mostElements)
+        : fitter_(group), writer_(mostElements), ofFaces_(group.cage().faceCount()) {}
 
     Status add(uint32_t face, uint32_t sides) {
+        const uint32_t first = writer_.pieceCount();
         for (const FittedPart& fitted : cut(face, sides).parts) {
             if (Status added = add(fitted, fitted.part.size); !added) {
                 return added;
             }
         }
+        ofFaces_[face] = {first, writer_.pieceCount() - first};
         return success();
     }
-    PieceTable finish() { return writer_.finish(); }
+    PieceTable finish() {
+        PieceTable table = writer_.finish();
+        table.ofFaces = std::move(ofFaces_);
+        return table;
+    }
 
 private:
     static bool isNearEnough(const PieceFit& fit) { return fit.error <= kNearEnough; }
@@ -219,6 +227,7 @@ private:
 
     PieceFitter fitter_;
     PieceWriter writer_;
+    std::vector<FacePieces> ofFaces_;
     std::unordered_map<uint32_t, size_t> lastWay_; ///< by number of sides
 };
 

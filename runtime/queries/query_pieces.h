@@ -9,8 +9,13 @@
 
 namespace supple::runtime {
 
+/// The pieces of a face of the cage.
+struct FacePieces {
+    uint32_t first = 0, count = 0;
+};
 struct PieceTable {
     std::vector<uint32_t> words;
+    std::vector<FacePieces> ofFaces;
     uint32_t pieceCount = 0;
     float reach = 0.0f; ///< the largest of a piece
 };

@@ -11,6 +11,7 @@ namespace {
 constexpr VkDeviceSize kBestBytes = 8;
 /// What vkCmdUpdateBuffer takes at once.
 constexpr uint32_t kRaysPerUpdate = 65536 / sizeof(SuppleRay);
+static_assert(sizeof(SuppleRay) == sizeof(SuppleTriangleHit));
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 constexpr gpu::SyncScope kCopied{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
@@ -28,7 +29,7 @@ Result<std::shared_ptr<QueryPool>> QueryPool::create(const gpu::Device& device, 
     pool->copies_.resize(framesInFlight + size_t{1});
     constexpr VkBufferUsageFlags kUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const gpu::BufferRequest requests[] = {
-        {"supple rays", rayCount * sizeof(SuppleRay), kUse, gpu::MemoryPurpose::scratch},
+        {"supple rays", 2 * rayCount * sizeof(SuppleRay), kUse, gpu::MemoryPurpose::scratch},
         {"supple rays, what is met", rayCount * kBestBytes, kUse, gpu::MemoryPurpose::scratch},
         {"supple hits", rayCount * sizeof(SuppleHit), kUse | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
          gpu::MemoryPurpose::streams},
@@ -74,43 +75,47 @@ void QueryPool::forGroups(F&& visit) const {
 }
 
 template <class F>
+void QueryPool::forStatics(F&& visit) const {
+    forGroups([&](const QueryGroup& group) { group.forStatics(visit); });
+}
+
+template <class F>
 void QueryPool::forAsked(uint32_t rays, F&& record) const {
     QueryGroup::Batch batch;
     batch.rayCount = rays;
+    batch.firstTriangle = rayCount_;
     batch.writesMisses = true;
     for (const Member& member : members_) {
         if (member.group == nullptr || !member.isAsked) {
             continue;
         }
         batch.group = static_cast<uint32_t>(&member - members_.data());
-        batch.isEmpty = member.isEmpty || member.group->pieces()->table.staticsPending();
+        batch.isEmpty = member.isEmpty || member.group->staticsPending();
+        batch.rate = member.rate;
         record(*member.group, batch);
         batch.firstLane += batch.isEmpty ? 0 : member.group->lanes();
         batch.writesMisses = false;
     }
 }
 
-void QueryPool::recordRays(VkCommandBuffer commandBuffer, const Rays& rays) const {
+void QueryPool::recordCopy(VkCommandBuffer commandBuffer, const Source& source, uint32_t first, uint32_t count) const {
     const gpu::Functions& vk = owner_->vk;
-    if (rays.host == nullptr) {
-        const VkBufferCopy region{rays.offset, 0, rays.count * sizeof(SuppleRay)};
-        vk.CmdCopyBuffer(commandBuffer, rays.buffer, device_.buffer(0), 1, &region);
-    } else {
-        for (uint32_t first = 0; first < rays.count; first += kRaysPerUpdate) {
-            vk.CmdUpdateBuffer(commandBuffer, device_.buffer(0), first * sizeof(SuppleRay),
-                               std::min(kRaysPerUpdate, rays.count - first) * sizeof(SuppleRay), rays.host + first);
-        }
+    const VkDeviceSize target = first * sizeof(SuppleRay);
+    if (source.host == nullptr) {
+        const VkBufferCopy region{source.offset, target, count * sizeof(SuppleRay)};
+        vk.CmdCopyBuffer(commandBuffer, source.buffer, device_.buffer(0), 1, &region);
+        return;
     }
-    vk.CmdFillBuffer(commandBuffer, device_.buffer(1), 0, rays.count * kBestBytes, shared::kNothingMet);
+    for (uint32_t done = 0; done < count; done += kRaysPerUpdate) {
+        vk.CmdUpdateBuffer(commandBuffer, device_.buffer(0), target + done * sizeof(SuppleRay),
+                           std::min(kRaysPerUpdate, count - done) * sizeof(SuppleRay),
+                           static_cast<const std::byte*>(source.host) + done * sizeof(SuppleRay));
+    }
 }
 
-void QueryPool::record(VkCommandBuffer commandBuffer, uint64_t frame, const Rays& rays, bool readsBack) {
-    recordedFrame_ = queriedFrame_ = frame;
-    recordRays(commandBuffer, rays);
-    gpu::memoryBarrier(*owner_, commandBuffer, kCopied, kByKernels);
-    gpu::SingleDispatches dispatches(*owner_, commandBuffer);
+void QueryPool::recordPick(gpu::Dispatches& dispatches, uint32_t rays) const {
     const auto each = [&](auto&& recordGroup) {
-        forAsked(rays.count, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
+        forAsked(rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
             recordGroup(group, batch);
             dispatches.disjointBarrier();
         });
@@ -122,15 +127,49 @@ void QueryPool::record(VkCommandBuffer commandBuffer, uint64_t frame, const Rays
             group.recordPick(dispatches, batch, work);
         });
     }
-    each([&](const QueryGroup& group, const QueryGroup::Batch& batch) { group.recordFinish(dispatches, batch); });
-    if (!readsBack) {
-        return;
+    forAsked(rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
+        group.recordFinish(dispatches, batch);
+        dispatches.disjointBarrier();
+    });
+}
+
+void QueryPool::recordRefine(gpu::Dispatches& dispatches, uint32_t rays) const {
+    // Nothing is met, until a triangle says so.
+    forAsked(rays, [&](const QueryGroup& group, QueryGroup::Batch batch) {
+        batch.isEmpty = true;
+        group.recordFinish(dispatches, batch);
+    });
+    dispatches.computeBarrier();
+    forAsked(rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
+        group.recordRefine(dispatches, batch);
+        dispatches.disjointBarrier();
+    });
+}
+
+void QueryPool::record(VkCommandBuffer commandBuffer, uint64_t frame, const Asked& asked) {
+    recordedFrame_ = queriedFrame_ = frame;
+    recordCopy(commandBuffer, asked.rays, 0, asked.count);
+    if (asked.triangles.isThere()) {
+        recordCopy(commandBuffer, asked.triangles, rayCount_, asked.count);
     }
-    Copy& copy = copies_[next_];
-    copy = {frame, rays.count};
+    owner_->vk.CmdFillBuffer(commandBuffer, device_.buffer(1), 0, asked.count * kBestBytes, shared::kNothingMet);
+    gpu::memoryBarrier(*owner_, commandBuffer, kCopied, kByKernels);
+    gpu::SingleDispatches dispatches(*owner_, commandBuffer);
+    if (asked.triangles.isThere()) {
+        recordRefine(dispatches, asked.count);
+    } else {
+        recordPick(dispatches, asked.count);
+    }
+    if (asked.readsBack) {
+        recordReadback(commandBuffer, frame, asked.count);
+    }
+}
+
+void QueryPool::recordReadback(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t count) {
+    copies_[next_] = {frame, count};
     gpu::memoryBarrier(*owner_, commandBuffer, {kCompute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
                        {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT});
-    const VkBufferCopy region{0, next_ * rayCount_ * sizeof(SuppleHit), rays.count * sizeof(SuppleHit)};
+    const VkBufferCopy region{0, next_ * rayCount_ * sizeof(SuppleHit), count * sizeof(SuppleHit)};
     owner_->vk.CmdCopyBuffer(commandBuffer, device_.buffer(2), readback_.buffer(0), 1, &region);
     gpu::memoryBarrier(*owner_, commandBuffer, {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
                        {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
@@ -153,31 +192,31 @@ std::optional<QueryPool::Batch> QueryPool::newest() const {
 
 bool QueryPool::staticsPending() const {
     bool pending = false;
-    forGroups([&](const QueryGroup& group) { pending = pending || group.pieces()->table.staticsPending(); });
+    forGroups([&](const QueryGroup& group) { pending = pending || group.staticsPending(); });
     return pending;
 }
 
 VkDeviceSize QueryPool::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
     VkDeviceSize bytes = 0;
-    forGroups([&](const QueryGroup& group) { bytes += group.pieces()->table.recordStatics(commandBuffer, frame); });
+    forStatics([&](gpu::StaticBuffers& table) { bytes += table.recordStatics(commandBuffer, frame); });
     recordedFrame_ = bytes > 0 ? frame : recordedFrame_;
     return bytes;
 }
 
 void QueryPool::countStatics(gpu::StaticCount& count) const {
-    forGroups([&](const QueryGroup& group) { group.pieces()->table.countStatics(count); });
+    forStatics([&](const gpu::StaticBuffers& table) { table.countStatics(count); });
 }
 
 Status QueryPool::stageStatics() {
     Status status = success();
-    forGroups([&](const QueryGroup& group) { status = status ? group.pieces()->table.stageStatics() : status; });
+    forStatics([&](gpu::StaticBuffers& table) { status = status ? table.stageStatics() : status; });
     return status;
 }
 
 void QueryPool::beginFrame(uint64_t completedFrame) {
     completedFrame_ = completedFrame;
     std::erase_if(retired_, [&](const Retired& own) { return own.lastFrame <= completedFrame; });
-    forGroups([&](const QueryGroup& group) { group.pieces()->table.beginFrame(completedFrame); });
+    forStatics([&](gpu::StaticBuffers& table) { table.beginFrame(completedFrame); });
 }
 
 void QueryPool::cancelFrame(uint64_t frame) {
@@ -185,7 +224,7 @@ void QueryPool::cancelFrame(uint64_t frame) {
         copy.frame = copy.frame == frame ? 0 : copy.frame;
     }
     queriedFrame_ = queriedFrame_ == frame ? 0 : queriedFrame_;
-    forGroups([&](const QueryGroup& group) { group.pieces()->table.cancelFrame(frame); });
+    forStatics([&](gpu::StaticBuffers& table) { table.cancelFrame(frame); });
 }
 
 } // namespace supple::runtime

@@ -27,6 +27,7 @@ public:
         std::shared_ptr<QueryGroup> group; ///< null: it was destroyed
         bool isAsked = false;              ///< by the batch that is recorded
         bool isEmpty = false;              ///< the frame has left it out
+        uint32_t rate = 1;                 ///< of its grids and meshes
     };
     [[nodiscard]] std::span<Member> members() { return members_; }
     [[nodiscard]] std::span<const Member> members() const { return members_; }
@@ -46,15 +47,21 @@ public:
     /// Whether the frame has a batch of it.
     [[nodiscard]] bool hasBatch(uint64_t frame) const { return queriedFrame_ == frame; }
 
-    /// The rays of a batch: the host's, or a range of a buffer.
-    struct Rays {
-        const SuppleRay* host = nullptr;
+    /// What a batch reads: elements of 32 bytes of the host's, or from a place of a buffer on.
+    struct Source {
+        const void* host = nullptr;
         VkBuffer buffer = VK_NULL_HANDLE;
         VkDeviceSize offset = 0;
-        uint32_t count = 0;
+
+        [[nodiscard]] bool isThere() const { return host != nullptr || buffer != VK_NULL_HANDLE; }
     };
-    /// Those of the members that are asked, with the barriers in between. What it waits for is before it.
-    void record(VkCommandBuffer commandBuffer, uint64_t frame, const Rays& rays, bool readsBack);
+    struct Asked {
+        Source rays, triangles; ///< triangles: what the rays have met, to be refined
+        uint32_t count = 0;
+        bool readsBack = false;
+    };
+    /// Asks the members that are asked, with the barriers in between. What it waits for is before it.
+    void record(VkCommandBuffer commandBuffer, uint64_t frame, const Asked& asked);
     /// The hits of the newest completed batch that is read back.
     struct Batch {
         uint64_t frame = 0;
@@ -80,10 +87,16 @@ private:
     };
     template <class F>
     void forGroups(F&& visit) const; ///< visit(QueryGroup&), of those that are there
+    template <class F>
+    void forStatics(F&& visit) const; ///< visit(gpu::StaticBuffers&), of these
     /// Calls record(group, batch) for the members that are asked.
     template <class F>
     void forAsked(uint32_t rays, F&& record) const;
-    void recordRays(VkCommandBuffer commandBuffer, const Rays& rays) const;
+    /// Copies to the rays, from their element `first` on.
+    void recordCopy(VkCommandBuffer commandBuffer, const Source& source, uint32_t first, uint32_t count) const;
+    void recordPick(gpu::Dispatches& dispatches, uint32_t rays) const;
+    void recordRefine(gpu::Dispatches& dispatches, uint32_t rays) const;
+    void recordReadback(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t count);
 
     const gpu::Device* owner_ = nullptr;
     uint32_t rayCount_ = 0;

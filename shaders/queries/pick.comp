@@ -23,7 +23,7 @@ void main() {
         if (ray.sound && mayMeet(ray, lowOfAll, highOfAll)) asked |= 1u << (r - firstRay);
     }
     if (asked == 0u) return;
-    Piece own = pieceOf(number, listed);
+    Piece own = pieceOf(number, slotOfListed(listed));
     vec3 ownLow, ownHigh;
     boxOf(own, ownLow, ownHigh);
     for (uint r = firstRay; r < endRay; ++r) {
@@ -39,7 +39,7 @@ void main() {
         loadCoefficients(own, c);
         turnTo(ray, own.first, c);
         ray = rayOf(r);
-        Met met = meet(own.kind, c, ray.from, ray.to, toleranceFor(low, high, ray.origin));
+        Met met = meet(own.kind, c, ray.from, ray.to, ray.from, toleranceFor(low, high, ray.origin), 0.0);
         if (met.distance < 0.0) continue;
         uint t = floatBitsToUint(met.distance / ray.unit);
         if (push.work == kFindLeast) atomicMin(best.at[r].x, t);

@@ -5,14 +5,15 @@ struct Piece {
     float reach; // how far coefficients may lie outside the vertices' box
     vec3 first;  // the first vertex: all others are taken from it
 };
-Piece pieceOf(uint number, uint listed) {
+// `slot`: of the window.
+Piece pieceOf(uint number, uint slot) {
     uvec4 head = piece(kPieceElements * number);
     Piece p;
     p.kind = head.y & ((1u << kPieceVerticesShift) - 1u);
     p.vertexCount = head.y >> kPieceVerticesShift;
     p.vertices = head.z;
     p.shares = head.w;
-    p.base = slotOfListed(listed) * push.cageStride;
+    p.base = slot * push.cageStride;
     p.reach = uintBitsToFloat(piece(kPieceElements * number + 1u).w);
     p.first = cage(p.base + piece(p.vertices).x).xyz;
     return p;
@@ -109,20 +110,17 @@ const uint kCells = 4u; // between samples, along a side
 struct Met {
     float distance; // along the ray; below 0: it meets nothing
     vec2 at;
+    float across; // beside the ray, squared
 };
 
-// Newton's method for where the ray comes nearest. `c`: x and y across the ray, z along it. The distance across is squared.
-void refine(uint kind, vec3 c[kPieceCoefficients], vec2 at, out Met met, out float across) {
-    met = Met(-1.0, at);
-    across = 3e38;
+// Newton's method for where the ray comes nearest. `c`: x and y across the ray, z along it.
+Met refined(uint kind, vec3 c[kPieceCoefficients], vec2 at) {
+    Met met = Met(-1.0, at, 3e38);
     at = held(kind, at);
     for (uint round = 0u; round < kRounds; ++round) {
         Jet jet = jetAt(kind, c, at);
         float off = dot(jet.position.xy, jet.position.xy);
-        if (off < across) {
-            across = off;
-            met = Met(jet.position.z, at);
-        }
+        if (off < met.across) met = Met(jet.position.z, at, off);
         float area = jet.du.x * jet.dv.y - jet.du.y * jet.dv.x;
         vec2 step = vec2(jet.dv.x * jet.position.y - jet.dv.y * jet.position.x, jet.du.y * jet.position.x - jet.du.x * jet.position.y) / area;
         float longest = max(abs(step.x), abs(step.y));
@@ -132,17 +130,20 @@ void refine(uint kind, vec3 c[kPieceCoefficients], vec2 at, out Met met, out flo
         if (all(lessThan(abs(next - at), vec2(kShortestStep)))) break;
         at = next;
     }
+    return met;
 }
 
-// What a ray meets of a piece first. `c`: as refine() has them.
-Met meet(uint kind, vec3 c[kPieceCoefficients], float from, float to, float tolerance) {
+// Of the points of a piece that the ray passes within the tolerance, the one nearest to the distance `near`, where what lies beside
+// the ray counts by a weight. `c`: as refined() has them.
+Met meet(uint kind, vec3 c[kPieceCoefficients], float from, float to, float near, float tolerance, float weight) {
     vec3 low = c[0], high = c[0];
     uint count = kind == kSquarePiece ? 16u : 15u;
     for (uint i = 1u; i < count; ++i) {
         low = min(low, c[i]);
         high = max(high, c[i]);
     }
-    Met best = Met(-1.0, vec2(0.0));
+    Met best = Met(-1.0, vec2(0.0), 0.0);
+    float least = 3e38;
     if (any(greaterThan(low.xy, vec2(tolerance))) || any(lessThan(high.xy, vec2(-tolerance))) || high.z < from || low.z > to) return best;
     vec2 before[kCells + 1u], row[kCells + 1u];
     for (uint j = 0u; j <= kCells; ++j) {
@@ -159,11 +160,11 @@ Met meet(uint kind, vec3 c[kPieceCoefficients], float from, float to, float tole
             vec2 weights = vec2(f.x * corner.y - f.y * corner.x, e.y * corner.x - e.x * corner.y) / area;
             if (!(weights.x >= -kSlack && weights.y >= -kSlack && weights.x + weights.y <= 1.0 + kSlack)) continue;
             vec2 at = far ? vec2(i + 1u, j) - weights : vec2(i, j - 1u) + weights;
-            Met met;
-            float across;
-            refine(kind, c, at / float(kCells), met, across);
-            bool taken = across <= tolerance * tolerance && met.distance >= from && met.distance <= to;
-            if (taken && (best.distance < 0.0 || met.distance < best.distance)) best = met;
+            Met met = refined(kind, c, at / float(kCells));
+            float cost = abs(met.distance - near) + weight * sqrt(met.across);
+            if (!(met.across <= tolerance * tolerance && met.distance >= from && met.distance <= to && cost < least)) continue;
+            least = cost;
+            best = met;
         }
         before = row;
     }
@@ -176,7 +177,7 @@ float toleranceFor(vec3 low, vec3 high, vec3 origin) {
     return 2e-6 * length(high - low) + 5e-7 * max(farthest.x, max(farthest.y, farthest.z));
 }
 
-// The coefficients as refine() has them.
+// The coefficients as refined() has them.
 void turnTo(Ray ray, vec3 first, inout vec3 c[kPieceCoefficients]) {
     vec3 offset = first - ray.origin;
     for (uint i = 0u; i < kPieceCoefficients; ++i) {

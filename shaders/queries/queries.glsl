@@ -1,5 +1,8 @@
 // What the kernels of queries read, and rays. Needs mapping.glsl.
 #include "shaders/shared/queries.h"
+#include "shaders/shared/surface.h"
+
+const uint kNoFace = 0xFFFFFFFFu;
 
 BUFFER(readonly, Rays, kRayBinding, std430, vec4, rays)
 BUFFER(, Best, kBestBinding, std430, uvec2, best)

@@ -15,6 +15,11 @@
 //   5   floats: what they gain to (1, 1); 0, 0
 // A square's handle is linear on either side of u = v. A triangle's is that of elements 2 and 4 all over.
 //   coefficients   four elements a vertex: its shares of coefficients 0..3, 4..7, 8..11, 12..15
+//
+// Triangles (words), for hits of what draws the surfaces: a header, then for each surface where its ranges begin and how many
+// there are; for each range where its runs of patches begin and how many there are; runs of kTriangleRunWords: the domain of the
+// patches or kSingleTriangles, how many there are, where their faces begin; faces, a word a patch; for each face of the cage its
+// first piece and how many it has.
 #ifndef SUPPLE_SHARED_QUERIES_H
 #define SUPPLE_SHARED_QUERIES_H
 
@@ -28,16 +33,24 @@ SUPPLE_SHARED_CONST kPieceBinding = 0u;
 SUPPLE_SHARED_CONST kPieceTexelBinding = 1u;
 SUPPLE_SHARED_CONST kQueryCageBinding = 2u;
 SUPPLE_SHARED_CONST kQueryCageTexelBinding = 3u;
-SUPPLE_SHARED_CONST kRayBinding = 4u;      // two vec4 a ray, as SuppleRay has them
+SUPPLE_SHARED_CONST kRayBinding = 4u;      // two vec4 a ray, as SuppleRay has them; then as many a hit, SuppleTriangleHit
 SUPPLE_SHARED_CONST kBestBinding = 5u;     // uvec2 a ray: bits of the least t, then the lane that has it
 SUPPLE_SHARED_CONST kQueryBoxBinding = 6u; // two vec4 an instance of the list: low, high corner of its cage
 SUPPLE_SHARED_CONST kHitBinding = 7u;      // four uvec4 a ray, as SuppleHit has them
+SUPPLE_SHARED_CONST kTriangleBinding = 8u;
 
 SUPPLE_SHARED_CONST kPieceElements = 6u;
 SUPPLE_SHARED_CONST kPieceVerticesShift = 8u;
 SUPPLE_SHARED_CONST kSquarePiece = 0u;
 SUPPLE_SHARED_CONST kTrianglePiece = 1u;
 SUPPLE_SHARED_CONST kPieceCoefficients = 16u;
+
+SUPPLE_SHARED_CONST kTriangleSurfaces = 0u;   // how many
+SUPPLE_SHARED_CONST kTriangleFaces = 1u;      // of the cage
+SUPPLE_SHARED_CONST kTriangleFacePieces = 2u; // where they begin
+SUPPLE_SHARED_CONST kTriangleHeaderWords = 3u;
+SUPPLE_SHARED_CONST kTriangleRunWords = 3u;
+SUPPLE_SHARED_CONST kSingleTriangles = 0xFFu; // patches that are triangles of the cage, at any rate
 
 SUPPLE_SHARED_CONST kNothingMet = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kRaysPerLane = 16u;
@@ -49,7 +62,7 @@ SUPPLE_SHARED_CONST kFindOwner = 1u; // the first lane that has it
 struct QueryPush {
     uint pieceCount;
     uint firstEntry; // of the window, in the list of instances
-    uint instanceCount;
+    uint instanceCount; // refine: slots of the window
     uint cageStride; // vertices from one instance to the next
     uint vertexCount; // of a cage
     uint firstRay;
@@ -59,7 +72,9 @@ struct QueryPush {
     uint work;         // kFindLeast or kFindOwner
     uint group;        // its number in the pool
     uint firstSlot;    // of the window
-    uint writesMisses; // 1: of all windows this one writes the rays that meet nothing
+    uint firstTriangle; // refine: the first hit of a triangle, in rays
+    uint rate;          // refine: of grids and meshes
+    uint writesMisses;  // 1: of all windows this one writes the rays that meet nothing
     float reach;       // the largest of the pieces
 };
 

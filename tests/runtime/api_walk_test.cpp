@@ -2916,6 +2916,21 @@ void queries(Rows& r) {
         d.groupCount = 1;
     });
     spoiledBatch("too many rays", kRange, [](World&, Batch& d) { d.rayCount = 5; });
+    const auto bufferOf = [](World& w) {
+        SuppleGroupInfo info{};
+        info.structSize = sizeof(info);
+        EXPECT_EQ(suppleGetGroupInfo(w.handle(), w.mine.main.group, &info), SUPPLE_OK);
+        return info.deformedCage;
+    };
+    spoiledBatch("two kinds of rays", kNull, [=](World& w, Batch& d) { d.rays = bufferOf(w); });
+    spoiledBatch("two kinds of triangles", kNull, [=](World& w, Batch& d) {
+        d.hostTriangles = w.plain<SuppleTriangleHit>(2);
+        d.triangles = bufferOf(w);
+    });
+    spoiledBatch("triangles beyond their range", kRange, [=](World& w, Batch& d) {
+        d.triangles = bufferOf(w);
+        d.triangles.size = 63;
+    });
     spoiledBatch("no rays", kNull, [](World&, Batch& d) { d.hostRays = nullptr; });
     r.refuse(
         kRecord, "commandBuffer null", kNull,

@@ -10,6 +10,8 @@
 #include "tools/common/procedural.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -81,12 +83,14 @@ public:
         return desc;
     }
     /// A frame of these groups that asks, and what it has found. It is complete when the next one begins.
-    std::vector<SuppleHit> run(const std::vector<SuppleRay>& rays, std::vector<SuppleGroup> groups = {}) {
+    std::vector<SuppleHit> run(const std::vector<SuppleRay>& rays, std::vector<SuppleGroup> groups = {},
+                               const std::vector<SuppleTriangleHit>& triangles = {}) {
         groups = groups.empty() ? groups_ : groups;
         context_.beginFrame();
         const Status submitted = context_.device().submitAndWait([&](VkCommandBuffer commands) {
             EXPECT_EQ(context_.record(commands, groups), SUPPLE_OK);
-            const SuppleQueryDesc desc = descOf(rays);
+            SuppleQueryDesc desc = descOf(rays);
+            desc.hostTriangles = triangles.empty() ? nullptr : triangles.data();
             EXPECT_EQ(suppleRecordQueries(context_.handle(), commands, pool_, &desc), SUPPLE_OK);
         });
         EXPECT_TRUE(submitted.ok());
@@ -533,6 +537,210 @@ TEST_F(Queries, MissInstancesThatAreNotFinite) {
         const std::vector<SuppleHit> hits = pool.run({rayOf({0.1f, 0.2f, 9.0f}, {0.0f, 0.0f, -1.0f})});
         EXPECT_EQ(hits[0].group, 0u);
         EXPECT_EQ(hits[0].slot, 1u);
+    }
+}
+
+/// A triangle that is drawn of an instance, as acceleration structures count it.
+struct DrawnTriangle {
+    uint32_t geometry = 0, primitive = 0;
+    std::array<glm::dvec3, 3> corners{};
+};
+std::vector<DrawnTriangle> drawnTriangles(const Crowd& crowd, uint32_t slot) {
+    const SuppleGridOutput grid = crowd.output().grid;
+    const std::vector<glm::vec3> vertices = asPositions(crowd.positions(slot));
+    const std::vector<std::byte> bytes = crowd.read(grid.indices);
+    const auto small = as<uint16_t>(bytes);
+    const auto large = as<uint32_t>(bytes);
+    std::vector<DrawnTriangle> triangles;
+    for (uint32_t g = 0; g < grid.drawRangeCount; ++g) {
+        const SuppleDrawRange& range = grid.drawRanges[g];
+        const bool isMesh = range.domain == SUPPLE_DOMAIN_MESH;
+        const uint32_t each = range.indexCount / 3;
+        for (uint32_t t = 0; t < each * (isMesh ? 1 : range.patchCount); ++t) {
+            DrawnTriangle own{g, t, {}};
+            for (uint32_t k = 0; k < 3; ++k) {
+                const uint32_t at = range.firstIndex + 3 * (t % each) + k;
+                const uint32_t index = grid.indices.stride == 2 ? small[at] : large[at];
+                own.corners[k] = vertices[index + (isMesh ? 0 : range.firstVertex + t / each * range.samplesPerPatch)];
+            }
+            triangles.push_back(own);
+        }
+    }
+    return triangles;
+}
+/// What a tracer of these triangles says.
+SuppleTriangleHit traced(const std::vector<DrawnTriangle>& triangles, const TestRay& ray, uint32_t slot) {
+    SuppleTriangleHit hit{SUPPLE_NO_HIT, 0, slot, 0, 0, kInfinity, {}};
+    for (const DrawnTriangle& own : triangles) {
+        const double t = DenseTriangles::meet(ray, own.corners[0], own.corners[1], own.corners[2]);
+        if (t < double{hit.t}) {
+            hit = {0, 0, slot, own.geometry, own.primitive, static_cast<float>(t), {}};
+        }
+    }
+    return hit;
+}
+
+/// What drawn triangles say is met becomes the points of the surface that rays meet themselves.
+TEST_F(Queries, RefineHitsOfTriangles) {
+    const cage::Character tube = bendingTube();
+    struct Case {
+        SuppleScheme scheme;
+        uint32_t flags;
+    };
+    for (const auto& [scheme, flags] :
+         {Case{SUPPLE_SCHEME_PM, 0}, Case{SUPPLE_SCHEME_CATMULL_CLARK, 0},
+          Case{SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_INDEXED_MESH}, Case{SUPPLE_SCHEME_LOOP, 0},
+          Case{SUPPLE_SCHEME_POLYGONS, 0}, Case{SUPPLE_SCHEME_FRAGMENTS, 0}}) {
+        for (const SuppleMapping mapping : kMappings) {
+            SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
+            CrowdContext& own = context(mapping);
+            SuppleGroupDesc desc = groupDesc(own.createAsset(tube), scheme);
+            desc.flags = flags;
+            desc.rate = 4;
+            Crowd crowd(own, desc);
+            ASSERT_TRUE(crowd.valid());
+            Pool pool(own, {crowd.group()}, 200);
+            (void)crowd.spawn();
+            const SuppleInstance posed = crowd.spawn();
+            crowd.pose(posed, 0, 0.8, glm::translate(glm::mat4(1.0f), {0.0f, 30.0f, 0.0f}));
+            crowd.run();
+            const std::vector<glm::vec3> cage = deformedCage(crowd, posed.slot, tube.cage.positions.size());
+            SuppleGroupDesc onCpu = groupDesc({}, scheme);
+            onCpu.structSize = sizeof(onCpu);
+            const auto surfaces = runtime::surfacesOf(runtime::Prepared::of(cage::Character(tube)), onCpu);
+            ASSERT_TRUE(surfaces.ok());
+            const std::vector<TestRay> rays = raysAt(DenseTriangles(*surfaces, cage, 2), *surfaces, cage, 200);
+            const std::vector<DrawnTriangle> triangles = drawnTriangles(crowd, posed.slot);
+            std::vector<SuppleTriangleHit> hardware;
+            for (const TestRay& ray : rays) {
+                hardware.push_back(traced(triangles, ray, posed.slot));
+            }
+            const std::vector<SuppleHit> cast = pool.run(raysOf(rays)), hits = pool.run(raysOf(rays), {}, hardware);
+            uint32_t met = 0, same = 0;
+            for (size_t k = 0; k < hits.size(); ++k) {
+                if (hardware[k].group == SUPPLE_NO_HIT) {
+                    EXPECT_EQ(hits[k].group, SUPPLE_NO_HIT);
+                    continue;
+                }
+                ++met;
+                EXPECT_EQ(hits[k].group, 0u);
+                EXPECT_EQ(hits[k].slot, posed.slot);
+                const glm::dvec3 d(rays[k].direction);
+                EXPECT_LE(glm::distance(runtime::vectorAt(hits[k].position),
+                                        glm::dvec3(rays[k].origin) + double{hardware[k].t} * d),
+                          1.0);
+                same += std::abs(hits[k].t - cast[k].t) * glm::length(d) < 1e-4 ? 1 : 0;
+            }
+            std::printf("scheme %u %-7s %zu triangles: %u of %u hits are those of cast rays\n", scheme,
+                        mappingName(mapping).c_str(), triangles.size(), same, met);
+            EXPECT_GT(met, 80u);
+            EXPECT_GE(same, met - met / 20); // silhouettes differ
+        }
+    }
+}
+
+/// Triangles that there are not are nothing that is met.
+TEST_F(Queries, RefineNothingOfTrianglesThatAreNone) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    Crowd crowd(own, groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_PM));
+    Pool pool(own, {crowd.group()}, 16);
+    poseInRow(crowd, {crowd.spawn()});
+    const SuppleRay ray = rows(1)[0];
+    const SuppleHit cast = pool.run({ray})[0];
+    const float kNan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<SuppleTriangleHit> triangles{{SUPPLE_NO_HIT, 0, 0, 0, 0, cast.t, {}},
+                                                   {1, 0, 0, 0, 0, cast.t, {}},
+                                                   {0, 1, 0, 0, 0, cast.t, {}},
+                                                   {0, 0, 3, 0, 0, cast.t, {}},
+                                                   {0, 0, UINT32_MAX, 0, 0, cast.t, {}},
+                                                   {0, 0, 0, 99, 0, cast.t, {}},
+                                                   {0, 0, 0, 0, 1u << 30u, cast.t, {}},
+                                                   {0, 0, 0, 0, UINT32_MAX, cast.t, {}},
+                                                   {0, 0, 0, 0, 0, kNan, {}},
+                                                   {0, 0, 0, 0, 0, kInfinity, {}}};
+    std::vector<SuppleRay> rays(triangles.size(), ray);
+    for (const SuppleHit& hit : pool.run(rays, {}, triangles)) {
+        EXPECT_EQ(hit.group, SUPPLE_NO_HIT);
+    }
+    rays.assign(1, rayOf({kNan, 0, 0}, {0, 0, -1}));
+    EXPECT_EQ(pool.run(rays, {}, {{0, 0, 0, 0, 0, 1.0f, {}}})[0].group, SUPPLE_NO_HIT);
+}
+
+/// Until the pieces are uploaded, their group is not met.
+TEST_F(Queries, WaitForUploads) {
+    CrowdContext own(*testDevice());
+    ASSERT_EQ(suppleSetUploadBudget(own.handle(), 4096), SUPPLE_OK);
+    Crowd crowd(own, groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_CATMULL_CLARK));
+    poseInRow(crowd, {crowd.spawn()});
+    const auto state = [&] {
+        SuppleUploadState state{};
+        state.structSize = sizeof(state);
+        EXPECT_EQ(suppleGetUploadState(own.handle(), &state), SUPPLE_OK);
+        return state;
+    };
+    for (int frame = 0; frame < 1000 && state().complete == 0; ++frame) {
+        crowd.run();
+    }
+    Pool pool(own, {crowd.group()}, 4);
+    EXPECT_EQ(state().complete, 0u);
+    EXPECT_EQ(pool.run(rows(1))[0].group, SUPPLE_NO_HIT);
+    for (int frame = 0; frame < 1000 && state().complete == 0; ++frame) {
+        own.beginFrame();
+        ASSERT_TRUE(own.device().submitAndWait(
+            [&](VkCommandBuffer commands) { EXPECT_EQ(suppleRecordUploads(own.handle(), commands), SUPPLE_OK); }));
+    }
+    EXPECT_EQ(state().complete, 1u);
+    EXPECT_EQ(pool.run(rows(1))[0].group, 0u);
+}
+
+TEST_F(Queries, DISABLED_Timing) {
+    const cage::Character character = readCharacter(kPipQuads);
+    for (const SuppleMapping mapping : kMappings) {
+        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
+            for (const uint32_t count : {1u, 100u}) {
+                CrowdContext& own = context(mapping);
+                SuppleGroupDesc desc = groupDesc(own.createAsset(character), scheme, count);
+                desc.rate = 1;
+                Crowd crowd(own, desc);
+                Pool pool(own, {crowd.group()}, 64);
+                for (uint32_t k = 0; k < count; ++k) {
+                    crowd.pose(crowd.spawn(), 0, 0.01 * k,
+                               glm::translate(glm::mat4(1.0f), {2.0f * static_cast<float>(k % 10), 0.0f,
+                                                                2.0f * static_cast<float>(k / 10)}));
+                }
+                std::vector<SuppleRay> aimed, beside;
+                for (uint32_t k = 0; k < 16; ++k) {
+                    const float x = 0.02f * static_cast<float>(k % 4), y = 0.3f + 0.05f * static_cast<float>(k);
+                    aimed.push_back(rayOf({x, y, -9.0f}, {0, 0, 1}));
+                    beside.push_back(rayOf({x, 90.0f + y, -9.0f}, {0, 0, 1}));
+                }
+                const auto time = [&](const std::vector<SuppleRay>& rays) {
+                    double least = 1e9;
+                    for (int k = 0; k < 9; ++k) {
+                        own.beginFrame();
+                        const SuppleGroup group = crowd.group();
+                        EXPECT_TRUE(own.device().submitAndWait([&](VkCommandBuffer c) {
+                            EXPECT_EQ(own.record(c, {&group, 1}), SUPPLE_OK);
+                        }));
+                        const auto begin = std::chrono::steady_clock::now();
+                        EXPECT_TRUE(own.device().submitAndWait([&](VkCommandBuffer c) {
+                            const SuppleQueryDesc d = pool.descOf(rays);
+                            EXPECT_EQ(suppleRecordQueries(own.handle(), c, pool.handle(), &d), SUPPLE_OK);
+                        }));
+                        least = std::min(
+                            least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+                    }
+                    return 1e3 * least;
+                };
+                const std::vector<SuppleRay> one(aimed.begin() + 3, aimed.begin() + 4), far(1, beside[0]);
+                uint32_t hit = 0;
+                for (const SuppleHit& h : pool.run(aimed))
+                    hit += h.group == 0;
+                std::printf(
+                    "%s scheme %u, %u instances: none %.3f, one %.3f ms, 16 beside %.3f, 16 aimed %.3f (%u hit)\n",
+                    mappingName(mapping).c_str(), scheme, count, time(far), time(one), time(beside), time(aimed), hit);
+            }
+        }
     }
 }
 

@@ -74,6 +74,15 @@ public:
         return best;
     }
 
+    /// t where a ray meets a triangle, or infinity.
+    static double meet(const TestRay& ray, const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r) {
+        const glm::dvec3 d(ray.direction), e = q - p, f = r - p, h = glm::cross(d, f), s = glm::dvec3(ray.origin) - p;
+        const double area = glm::dot(e, h), u = glm::dot(s, h) / area;
+        const glm::dvec3 k = glm::cross(s, e);
+        const double v = glm::dot(d, k) / area, t = glm::dot(f, k) / area;
+        return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 ? t : std::numeric_limits<double>::infinity();
+    }
+
     glm::dvec3 middle{0.0}, half{0.0};
     double extent = 0.0;
 
@@ -88,14 +97,6 @@ private:
         const glm::dvec3 enters = glm::min(t0, t1), leaves = glm::max(t0, t1);
         return std::max({enters.x, enters.y, enters.z, 0.0}) <= std::min({leaves.x, leaves.y, leaves.z});
     }
-    static double meet(const TestRay& ray, const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r) {
-        const glm::dvec3 d(ray.direction), e = q - p, f = r - p, h = glm::cross(d, f), s = glm::dvec3(ray.origin) - p;
-        const double area = glm::dot(e, h), u = glm::dot(s, h) / area;
-        const glm::dvec3 k = glm::cross(s, e);
-        const double v = glm::dot(d, k) / area, t = glm::dot(f, k) / area;
-        return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 ? t : std::numeric_limits<double>::infinity();
-    }
-
     uint32_t along_;
     std::vector<runtime::Piece> pieces_;
     std::vector<Samples> samples_;

@@ -54,6 +54,17 @@ typedef struct SuppleHit {
     float reservedToo;        /**< 0 */
 } SuppleHit;
 
+/** What a tracer of a group's triangles, be it hardware, says that a ray has met: 32 bytes. */
+typedef struct SuppleTriangleHit {
+    uint32_t group;   /**< number of the group in SuppleQueryPoolDesc.groups, or SUPPLE_NO_HIT: the ray meets nothing */
+    uint32_t surface; /**< of the group */
+    uint32_t slot;    /**< of the instance */
+    uint32_t geometry;  /**< draw range of the surface: geometryIndex, if it was built as suppleGetRayGeometry says */
+    uint32_t primitive; /**< triangle of that range: primitiveIndex */
+    float t;            /**< along the ray, in lengths of its direction */
+    float reserved[2];  /**< not looked at: barycentrics, say */
+} SuppleTriangleHit;
+
 /** What a pool is for. Pointers are needed during the call only. */
 typedef struct SuppleQueryPoolDesc {
     uint32_t structSize;
@@ -87,7 +98,13 @@ typedef struct SuppleQueryDesc {
     /** Or rays of the device, from its offset on, a multiple of 4: a buffer with VK_BUFFER_USAGE_TRANSFER_SRC_BIT. Its
      * stride is not asked. */
     SuppleBufferRange rays;
-    SuppleSyncScope before; /**< what wrote the device's rays, and what used the hits of earlier frames */
+    /** Optional: what the rays have met of triangles that were drawn at a rate, one for each ray. Then rays are not
+     * cast. A hit is the point of the triangle's face that the ray comes nearest to, near that t. It may lie beside its
+     * ray, as triangles reach beyond the surface at silhouettes. If there is no such triangle, or no such point,
+     * nothing is met. Groups with levels have no triangles to name. */
+    const SuppleTriangleHit* hostTriangles;
+    SuppleBufferRange triangles; /**< or those of the device, as rays */
+    SuppleSyncScope before; /**< what wrote the device's rays and triangles, and what used the hits of earlier frames */
     SuppleSyncScope after;  /**< what reads the hits on the device */
 } SuppleQueryDesc;
 
