@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -253,7 +252,7 @@ TEST_F(Queries, RaysMeetWhatDenseTrianglesDo) {
         for (const SuppleMapping mapping : kMappings) {
             SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
             Figures own;
-            compareCharacter(context(mapping), bendingTube(), scheme, 300, truth, own);
+            compareCharacter(context(mapping), bendingTube(), scheme, 200, truth, own);
             print(scheme, mapping, own);
             all.wrong += own.wrong;
             all.rays += own.rays;
@@ -275,7 +274,7 @@ TEST_F(Queries, RaysMeetABentCharacter) {
         SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
         Figures own;
         std::optional<Truth> truth;
-        compareCharacter(context(mapping), character, scheme, 500, truth, own);
+        compareCharacter(context(mapping), character, scheme, 120, truth, own);
         print(scheme, mapping, own);
         all.wrong += own.wrong;
         all.rays += own.rays;
@@ -599,7 +598,7 @@ TEST_F(Queries, RefineHitsOfTriangles) {
             desc.rate = 4;
             Crowd crowd(own, desc);
             ASSERT_TRUE(crowd.valid());
-            Pool pool(own, {crowd.group()}, 200);
+            Pool pool(own, {crowd.group()}, 80);
             (void)crowd.spawn();
             const SuppleInstance posed = crowd.spawn();
             crowd.pose(posed, 0, 0.8, glm::translate(glm::mat4(1.0f), {0.0f, 30.0f, 0.0f}));
@@ -609,7 +608,7 @@ TEST_F(Queries, RefineHitsOfTriangles) {
             onCpu.structSize = sizeof(onCpu);
             const auto surfaces = runtime::surfacesOf(runtime::Prepared::of(cage::Character(tube)), onCpu);
             ASSERT_TRUE(surfaces.ok());
-            const std::vector<TestRay> rays = raysAt(DenseTriangles(*surfaces, cage, 2), *surfaces, cage, 200);
+            const std::vector<TestRay> rays = raysAt(DenseTriangles(*surfaces, cage, 2), *surfaces, cage, 80);
             const std::vector<DrawnTriangle> triangles = drawnTriangles(crowd, posed.slot);
             std::vector<SuppleTriangleHit> hardware;
             for (const TestRay& ray : rays) {
@@ -633,7 +632,7 @@ TEST_F(Queries, RefineHitsOfTriangles) {
             }
             std::printf("scheme %u %-7s %zu triangles: %u of %u hits are those of cast rays\n", scheme,
                         mappingName(mapping).c_str(), triangles.size(), same, met);
-            EXPECT_GT(met, 80u);
+            EXPECT_GT(met, 40u);
             EXPECT_GE(same, met - met / 20); // silhouettes differ
         }
     }
@@ -691,57 +690,6 @@ TEST_F(Queries, WaitForUploads) {
     }
     EXPECT_EQ(state().complete, 1u);
     EXPECT_EQ(pool.run(rows(1))[0].group, 0u);
-}
-
-TEST_F(Queries, DISABLED_Timing) {
-    const cage::Character character = readCharacter(kPipQuads);
-    for (const SuppleMapping mapping : kMappings) {
-        for (const SuppleScheme scheme : {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK}) {
-            for (const uint32_t count : {1u, 100u}) {
-                CrowdContext& own = context(mapping);
-                SuppleGroupDesc desc = groupDesc(own.createAsset(character), scheme, count);
-                desc.rate = 1;
-                Crowd crowd(own, desc);
-                Pool pool(own, {crowd.group()}, 64);
-                for (uint32_t k = 0; k < count; ++k) {
-                    crowd.pose(crowd.spawn(), 0, 0.01 * k,
-                               glm::translate(glm::mat4(1.0f), {2.0f * static_cast<float>(k % 10), 0.0f,
-                                                                2.0f * static_cast<float>(k / 10)}));
-                }
-                std::vector<SuppleRay> aimed, beside;
-                for (uint32_t k = 0; k < 16; ++k) {
-                    const float x = 0.02f * static_cast<float>(k % 4), y = 0.3f + 0.05f * static_cast<float>(k);
-                    aimed.push_back(rayOf({x, y, -9.0f}, {0, 0, 1}));
-                    beside.push_back(rayOf({x, 90.0f + y, -9.0f}, {0, 0, 1}));
-                }
-                const auto time = [&](const std::vector<SuppleRay>& rays) {
-                    double least = 1e9;
-                    for (int k = 0; k < 9; ++k) {
-                        own.beginFrame();
-                        const SuppleGroup group = crowd.group();
-                        EXPECT_TRUE(own.device().submitAndWait([&](VkCommandBuffer c) {
-                            EXPECT_EQ(own.record(c, {&group, 1}), SUPPLE_OK);
-                        }));
-                        const auto begin = std::chrono::steady_clock::now();
-                        EXPECT_TRUE(own.device().submitAndWait([&](VkCommandBuffer c) {
-                            const SuppleQueryDesc d = pool.descOf(rays);
-                            EXPECT_EQ(suppleRecordQueries(own.handle(), c, pool.handle(), &d), SUPPLE_OK);
-                        }));
-                        least = std::min(
-                            least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-                    }
-                    return 1e3 * least;
-                };
-                const std::vector<SuppleRay> one(aimed.begin() + 3, aimed.begin() + 4), far(1, beside[0]);
-                uint32_t hit = 0;
-                for (const SuppleHit& h : pool.run(aimed))
-                    hit += h.group == 0;
-                std::printf(
-                    "%s scheme %u, %u instances: none %.3f, one %.3f ms, 16 beside %.3f, 16 aimed %.3f (%u hit)\n",
-                    mappingName(mapping).c_str(), scheme, count, time(far), time(one), time(beside), time(aimed), hit);
-            }
-        }
-    }
 }
 
 /// Pieces of a character: a few a face, most of which have their shares in common.
