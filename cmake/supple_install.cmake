@@ -33,6 +33,7 @@ install(FILES
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_direct.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_playback.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_points.h
+    ${supple_SOURCE_DIR}/runtime/include/supple/supple_queries.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_rays.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_prepare.h
     ${supple_SOURCE_DIR}/runtime/include/supple/supple_recording.h

@@ -268,6 +268,7 @@ Status Context::cancelFrame() {
 
 void Context::retire(uint64_t completedFrame) {
     std::erase_if(retired_, [&](const Retired<Group>& group) { return group.lastFrame <= completedFrame; });
+    std::erase_if(retiredPools_, [&](const Retired<QueryPool>& pool) { return pool.lastFrame <= completedFrame; });
     // Those that groups still use stay, as groups may be recorded again.
     std::erase_if(retiredViews_, [&](const Retired<View>& view) {
         return view.object.use_count() == 1 && view.lastFrame <= completedFrame;
@@ -446,8 +447,9 @@ Status Context::remake(const Remaking& remaking, uint64_t id, Group& group, std:
     if (!made) {
         return made.error();
     }
-    remade.push_back({id, std::move(*made), {}});
-    return remakePoints(group, remade.back());
+    remade.push_back({id, std::move(*made), {}, {}});
+    const Status points = remakePoints(group, remade.back());
+    return points ? remakeQueries(group, remade.back()) : points;
 }
 
 Result<std::vector<Context::Remade>> Context::remake(const Remaking& remaking) {
@@ -483,6 +485,7 @@ void Context::replace(std::vector<Remade>& remade) {
     makeRoom(retired_, groups.slotCount() + remade.size());
     for (Remade& own : remade) {
         replacePoints(own);
+        replaceQueries(own);
         retired_.push_back(retired(groups.replace(own.id, std::move(own.group))));
     }
 }
@@ -600,6 +603,7 @@ bool Context::destroyGroup(uint64_t id) {
         return false;
     }
     dropPoints(id);
+    dropQueries(id);
     retired_.push_back(retired(std::move(group))); // freed by the next beginFrame that may
     return true;
 }

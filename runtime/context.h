@@ -9,6 +9,7 @@
 #include "runtime/asset.h"
 #include "runtime/group.h"
 #include "runtime/planned_pipelines.h"
+#include "runtime/queries/query_pool.h"
 #include "runtime/recording/call_keeper.h"
 #include "runtime/recording/recorder.h"
 #include "runtime/shared_kernels.h"
@@ -110,6 +111,11 @@ public:
     /// `desc`: its structSize and its numbers are checked.
     [[nodiscard]] Result<uint64_t> createPointSet(const SupplePointSetDesc& desc);
     bool destroyPointSet(uint64_t id);
+    /// `desc`: its structSize, its numbers and its handles are checked.
+    [[nodiscard]] Result<uint64_t> createQueryPool(const SuppleQueryPoolDesc& desc);
+    bool destroyQueryPool(uint64_t id);
+    /// `desc`: its structSize and its numbers are checked.
+    [[nodiscard]] Status recordQueries(VkCommandBuffer commandBuffer, QueryPool& pool, const SuppleQueryDesc& desc);
     /// The surfaces of a group on the CPU, made when something first needs them.
     [[nodiscard]] static Result<std::shared_ptr<const CpuGroup>> surfacesOf(Group& group);
     /// ClipStream::request, if the asset's clips are streamed.
@@ -144,6 +150,7 @@ public:
     SlotMap<Group> groups;
     SlotMap<View> views;
     SlotMap<PointSet> pointSets;
+    SlotMap<QueryPool> queryPools;
 
 private:
     /// Makes ready for the hashes of a recording.
@@ -228,9 +235,15 @@ private:
             uint64_t id = 0;
             std::shared_ptr<PointSet> set;
         };
+        /// The group's part of a query pool.
+        struct Queries {
+            uint64_t pool = 0;
+            std::shared_ptr<QueryGroup> group;
+        };
         uint64_t id = 0;
         std::shared_ptr<Group> group;
         std::vector<Points> points;
+        std::vector<Queries> queries;
     };
     /// Makes the sets of a group for the one that takes its place.
     [[nodiscard]] Status remakePoints(const Group& before, Remade& remade);
@@ -242,6 +255,16 @@ private:
     void tellDropped(const Remade& remade) const;
     void replacePoints(const Remade& remade);
     void dropPoints(uint64_t group);
+    // runtime/queries/context_queries.cpp
+    /// `pieces`: null, and they are made anew.
+    [[nodiscard]] Result<std::shared_ptr<QueryGroup>>
+    queryGroup(const std::shared_ptr<Group>& group, std::shared_ptr<QueryPieces> pieces, const QueryBuffers& buffers);
+    /// Makes a group's parts of query pools for the one that takes its place.
+    [[nodiscard]] Status remakeQueries(const Group& before, Remade& remade);
+    void replaceQueries(const Remade& remade);
+    void dropQueries(uint64_t group);
+    /// Notes which groups a batch asks.
+    [[nodiscard]] Status askGroups(QueryPool& pool, const SuppleQueryDesc& desc) const;
     [[nodiscard]] Result<std::vector<Remade>> remake(const Remaking& remaking);
     [[nodiscard]] Status remake(const Remaking& remaking, uint64_t id, Group& group, std::vector<Remade>& remade);
     void replace(std::vector<Remade>& remade);
@@ -301,6 +324,7 @@ private:
     }
     std::vector<Retired<Group>> retired_;
     std::vector<Retired<View>> retiredViews_;
+    std::vector<Retired<QueryPool>> retiredPools_;
 };
 
 template <class F>
@@ -367,6 +391,7 @@ void Context::forMembers(F&& visit) {
     visit(pairs_);
     groups.forEach(visit);
     forViews(visit);
+    queryPools.forEach(visit);
     // What a group destroyed since then has uploaded may be its asset's, and serve groups to come.
     for (const Retired<Group>& group : retired_) {
         visit(*group.object);

@@ -617,6 +617,7 @@ Status Context::recordUploads(VkCommandBuffer commandBuffer) {
             recorded = true;
         }
     });
+    queryPools.forEach([&](QueryPool& pool) { recorded = pool.recordStatics(commandBuffer, frame_) > 0 || recorded; });
     recorded = recordStreams(commandBuffer) || recorded;
     if (recorded) {
         gpu::memoryBarrier(*device_, commandBuffer, {kTransfer, VK_ACCESS_2_TRANSFER_WRITE_BIT}, kUploaded);

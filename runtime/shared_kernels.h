@@ -4,6 +4,7 @@
 #include "runtime/culling/bounds_kernels.h"
 #include "runtime/culling/occlusion_kernels.h"
 #include "runtime/points/point_kernels.h"
+#include "runtime/queries/query_kernels.h"
 #include "runtime/recording/stage_hashes.h"
 #include "skinning/pose_kernels.h"
 
@@ -27,6 +28,8 @@ public:
     [[nodiscard]] Result<OcclusionKernels*> occlusion() { return made(occlusion_); }
     /// For groups with point sets.
     [[nodiscard]] Result<PointKernels*> points() { return made(points_); }
+    /// For query pools.
+    [[nodiscard]] Result<QueryKernels*> queries() { return made(queries_); }
     /// For recordings with hashes.
     [[nodiscard]] Result<HashKernels*> hashes() { return made(hashes_); }
 
@@ -61,6 +64,7 @@ private:
     std::unique_ptr<BoundsKernels> bounds_;
     std::unique_ptr<OcclusionKernels> occlusion_;
     std::unique_ptr<PointKernels> points_;
+    std::unique_ptr<QueryKernels> queries_;
     std::unique_ptr<HashKernels> hashes_;
 };
 

@@ -58,6 +58,7 @@ SuppleUploadState Context::uploadState() const {
     add(pairs_);
     groups.forEach(add);
     views.forEach(add);
+    queryPools.forEach(add);
     assets.forEach([&](Asset& asset) { asset.forStatics(add); });
     SuppleUploadState state = stateOf(count);
     state.frameBytes = uploads_.frameBytes(); // of what is destroyed, too

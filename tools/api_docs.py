@@ -17,7 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 HEADERS = (
     "supple.h", "supple_view.h", "supple_playback.h", "supple_prepare.h", "supple_character.h", "supple_recording.h",
-    "supple_points.h", "supple_rays.h", "supple_direct.h", "supple_cpu.h",
+    "supple_points.h", "supple_queries.h", "supple_rays.h", "supple_direct.h", "supple_cpu.h",
     "supple.hpp", "supple_tinygltf.hpp", "supple_tracy.h",
 )
 INCLUDE = ROOT / "runtime/include/supple"

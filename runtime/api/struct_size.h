@@ -4,6 +4,7 @@
 #include "runtime/sized.h"
 #include "supple/supple.h"
 #include "supple/supple_cpu.h"
+#include "supple/supple_queries.h"
 
 #include <string>
 
@@ -64,6 +65,9 @@ inline constexpr const char* kStructName = nullptr;
     X(SupplePointSetDesc)                                                                                              \
     X(SupplePointQuery)                                                                                                \
     X(SupplePointOutput)                                                                                               \
+    X(SuppleQueryPoolDesc)                                                                                             \
+    X(SuppleQueryOutput)                                                                                               \
+    X(SuppleQueryDesc)                                                                                                 \
     X(SuppleLevelOutput)                                                                                               \
     X(SuppleViewStatistics)                                                                                            \
     X(SuppleCpuGroupDesc)                                                                                              \

@@ -1,6 +1,5 @@
 // Rays against the surfaces of cages and of a character, beside triangles that are far denser.
-#include "runtime/points/point_pieces.h"
-#include "tests/support/found_points.h"
+#include "tests/support/dense_triangles.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_zoo.h"
 #include "tests/support/read_character.h"
@@ -28,113 +27,11 @@ constexpr SuppleScheme kCastSchemes[] = {SUPPLE_SCHEME_PREP, SUPPLE_SCHEME_PM,  
 /// Rays that graze the surface may give the farther of two points: so many of all.
 constexpr double kMostWrong = 0.002;
 
-struct TestRay {
-    glm::vec3 origin{0.0f}, direction{0.0f};
-};
-
-/// The surface in triangles, 32 along a side of each piece.
-class DenseTriangles {
-public:
-    DenseTriangles(const Surfaces& surfaces, const std::vector<glm::vec3>& cage)
-        : pieces_(runtime::piecesOf(*surfaces)) {
-        runtime::CpuPose pose(surfaces);
-        EXPECT_TRUE(pose.build(reinterpret_cast<const std::byte*>(cage.data()), sizeof(cage[0]), {}));
-        glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-        for (const runtime::Piece& piece : pieces_) {
-            std::vector<SuppleSurfacePoint> points;
-            for (uint32_t j = 0; j <= kAlong; ++j) {
-                for (uint32_t i = 0; i <= kAlong - (piece.isQuad ? 0 : j); ++i) {
-                    points.push_back(piece.at(i / double{kAlong}, j / double{kAlong}));
-                }
-            }
-            std::vector<SuppleSurfaceJet> jets(points.size());
-            EXPECT_TRUE(pose.evaluate(points, jets.data(), {}));
-            Samples own;
-            for (const SuppleSurfaceJet& jet : jets) {
-                own.positions.emplace_back(jet.position[0], jet.position[1], jet.position[2]);
-                own.low = glm::min(own.low, own.positions.back());
-                own.high = glm::max(own.high, own.positions.back());
-            }
-            low = glm::min(low, own.low);
-            high = glm::max(high, own.high);
-            samples_.push_back(std::move(own));
-        }
-        middle = 0.5 * (low + high);
-        half = 0.5 * (high - low);
-        extent = glm::distance(low, high);
-    }
-
-    [[nodiscard]] double first(const TestRay& ray) const {
-        double best = std::numeric_limits<double>::infinity();
-        for (size_t p = 0; p < pieces_.size(); ++p) {
-            const Samples& own = samples_[p];
-            if (!meets(ray, own)) {
-                continue;
-            }
-            for (uint32_t j = 0; j < kAlong; ++j) {
-                const bool isQuad = pieces_[p].isQuad;
-                const uint32_t length = kAlong + 1 - (isQuad ? 0 : j);
-                const glm::dvec3* const row = &own.positions[isQuad ? j * length : j * (kAlong + 1) - j * (j - 1) / 2];
-                for (uint32_t i = 0; i + 1 < length; ++i) {
-                    const glm::dvec3* const next = row + length + i;
-                    best = std::min(best, meet(ray, row[i], row[i + 1], next[0]));
-                    if (isQuad || i + 2 < length) {
-                        best = std::min(best, meet(ray, next[1], next[0], row[i + 1]));
-                    }
-                }
-            }
-        }
-        return best;
-    }
-
-    glm::dvec3 middle{0.0}, half{0.0};
-    double extent = 0.0;
-
-private:
-    static constexpr uint32_t kAlong = 32;
-    struct Samples {
-        std::vector<glm::dvec3> positions;
-        glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-    };
-    static bool meets(const TestRay& ray, const Samples& own) {
-        const glm::dvec3 t0 = (own.low - glm::dvec3(ray.origin)) / glm::dvec3(ray.direction),
-                         t1 = (own.high - glm::dvec3(ray.origin)) / glm::dvec3(ray.direction);
-        const glm::dvec3 enters = glm::min(t0, t1), leaves = glm::max(t0, t1);
-        return std::max({enters.x, enters.y, enters.z, 0.0}) <= std::min({leaves.x, leaves.y, leaves.z});
-    }
-    static double meet(const TestRay& ray, const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r) {
-        const glm::dvec3 d(ray.direction), e = q - p, f = r - p, h = glm::cross(d, f), s = glm::dvec3(ray.origin) - p;
-        const double area = glm::dot(e, h), u = glm::dot(s, h) / area;
-        const glm::dvec3 k = glm::cross(s, e);
-        const double v = glm::dot(d, k) / area, t = glm::dot(f, k) / area;
-        return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 ? t : std::numeric_limits<double>::infinity();
-    }
-
-    std::vector<runtime::Piece> pieces_;
-    std::vector<Samples> samples_;
-};
-
-/// From all round the surface to points on it; a third of them to anywhere in its box, so that many graze it.
-std::vector<TestRay> raysAt(const DenseTriangles& dense, const Surfaces& surfaces, uint32_t count) {
-    const At on = at(surfaces, found(surfaces, queryOf(SUPPLE_FIND_SCATTER, count)));
-    std::mt19937 random(5);
-    const auto number = [&] { return 2.0 * static_cast<double>(random() % 65536) / 65536.0 - 1.0; };
-    std::vector<TestRay> rays;
-    for (uint32_t k = 0; k < count; ++k) {
-        const glm::dvec3 way = glm::normalize(glm::dvec3(number(), number(), number() + 1e-3));
-        const glm::dvec3 from = dense.middle + dense.extent * way;
-        const glm::dvec3 to = k % 3 == 0 ? dense.middle + dense.half * glm::dvec3(number(), number(), number())
-                                         : glm::dvec3(on.positions[k]);
-        rays.push_back({from, glm::normalize(to - from) * (k % 2 == 0 ? 1.0 : 0.25)});
-    }
-    return rays;
-}
-
 /// What rays find, against the triangles. Returns how many miss something nearer. What is found in front of the
 /// triangles is right: it lies on the surface and on the ray, and triangles cut corners.
 uint32_t wrongOf(const Surfaces& surfaces, const std::vector<glm::vec3>& cage, uint32_t count, double& beside) {
     const DenseTriangles dense(surfaces, cage);
-    const std::vector<TestRay> rays = raysAt(dense, surfaces, count);
+    const std::vector<TestRay> rays = raysAt(dense, surfaces, cage, count);
     SupplePointQuery query = queryOf(SUPPLE_FIND_RAY, rays.size(), &rays[0].origin.x);
     query.cage = &cage[0].x;
     query.cageVertexCount = static_cast<uint32_t>(cage.size());

@@ -4,6 +4,7 @@
 #include "tests/support/logged_context.h"
 #if defined(SUPPLE_WITH_CPU)
 #include "supple/supple_cpu.h"
+#include "supple/supple_queries.h"
 #endif
 
 #include <array>
@@ -85,6 +86,7 @@ public:
         createAssets();
         createGroups();
         createPoints();
+        createQueries();
         prepare();
         pose();
         ask();
@@ -345,6 +347,42 @@ private:
         desc.group = groups_[1];
         call("suppleCreatePointSet", [&] { return suppleCreatePointSet(handle(), &desc, &set); });
         call("suppleDestroyPointSet", [&] { return suppleDestroyPointSet(handle(), set); });
+#endif
+    }
+
+    /// Of two groups, one of them in a view.
+    void createQueries() {
+#if defined(SUPPLE_WITH_CPU)
+        const SuppleGroup groups[] = {groups_[0], groups_[kGroups - 1]};
+        SuppleQueryPoolDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.groups = groups;
+        desc.groupCount = 2;
+        desc.rayCount = 2;
+        call("suppleCreateQueryPool", [&] { return suppleCreateQueryPool(handle(), &desc, &queries_); });
+        get<SuppleQueryOutput>("suppleGetQueryOutput",
+                               [&](auto* out) { return suppleGetQueryOutput(handle(), queries_, out); });
+        SuppleQueryPool other{};
+        call("suppleCreateQueryPool", [&] { return suppleCreateQueryPool(handle(), &desc, &other); });
+        call("suppleDestroyQueryPool", [&] { return suppleDestroyQueryPool(handle(), other); });
+#endif
+    }
+    void recordQueries(VkCommandBuffer commands) {
+#if defined(SUPPLE_WITH_CPU)
+        const SuppleRay rays[] = {{{0.5f, 1.0f, 9.0f}, 0.0f, {0.0f, 0.0f, -1.0f}, 100.0f}, {}};
+        SuppleQueryDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.flags = SUPPLE_QUERY_READ_BACK;
+        desc.hostRays = rays;
+        desc.rayCount = 2;
+        desc.before = desc.after = kAnyUse;
+        call("suppleRecordQueries", [&] { return suppleRecordQueries(handle(), commands, queries_, &desc); });
+        SuppleHit hits[2];
+        uint32_t count = 2;
+        const SuppleResult read = suppleReadHits(handle(), queries_, hits, &count, nullptr);
+        EXPECT_TRUE(read == SUPPLE_OK || read == SUPPLE_NOT_READY);
+#else
+        (void)commands;
 #endif
     }
 
@@ -617,6 +655,9 @@ private:
                  [&] { return suppleRecordWarmUp(handle(), commands, all.data(), static_cast<uint32_t>(all.size())); });
         }
         call("suppleRecord", [&] { return recorded_ = context_.record(commands, all, SUPPLE_RECORD_TIMINGS); });
+        if (recorded_ == SUPPLE_OK) {
+            recordQueries(commands);
+        }
         uint32_t count = 0;
         call("suppleGetAcquireBarriers",
              [&] { return suppleGetAcquireBarriers(handle(), all.data(), 1, kAnyUse, nullptr, &count); });
@@ -644,6 +685,9 @@ private:
         }
         call("suppleBeginFrame", [&] { return suppleBeginFrame(handle(), frame_ + 1, frame_); });
         ++frame_;
+#if defined(SUPPLE_WITH_CPU)
+        call("suppleDestroyQueryPool", [&] { return suppleDestroyQueryPool(handle(), queries_); });
+#endif
         for (size_t i = 0; i < kGroups; ++i) {
             call("suppleDestroyInstance", [&] { return suppleDestroyInstance(handle(), instances_[i][0]); });
             call("suppleDestroyGroup", [&] { return suppleDestroyGroup(handle(), groups_[i]); });
@@ -668,6 +712,9 @@ private:
     SuppleResult recorded_ = SUPPLE_OK; ///< what the last suppleRecord returned
     SuppleAsset tube_{}, quad_{};
     SuppleView view_{};
+#if defined(SUPPLE_WITH_CPU)
+    SuppleQueryPool queries_{};
+#endif
     std::array<SuppleGroup, kGroups> groups_{};
     std::array<std::vector<SuppleInstance>, kGroups> instances_;
 };

@@ -20,7 +20,7 @@ FLOORS = [line.split() for line in """
     shaders/supple_patch.glsl
     shaders/surface/ shaders/pose/ shaders/deform/
     shaders/lod/ shaders/soft/
-    shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/ shaders/recording/ shaders/points/
+    shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/ shaders/recording/ shaders/points/ shaders/queries/
     shaders/prep/ shaders/pm/ shaders/subdivision/ shaders/blend/ shaders/polygons/
     shaders/chains/ shaders/fragments/
     shaders/catmull_clark/ shaders/loop/

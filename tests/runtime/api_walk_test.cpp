@@ -6,6 +6,7 @@
 #include "tests/support/not_finite.h"
 #if defined(SUPPLE_WITH_CPU)
 #include "supple/supple_cpu.h"
+#include "supple/supple_queries.h"
 #endif
 
 #include <algorithm>
@@ -2799,6 +2800,181 @@ void points(Rows& r) {
 #endif
 }
 
+void queries(Rows& r) {
+    constexpr const char *kCreate = "suppleCreateQueryPool", *kDestroy = "suppleDestroyQueryPool",
+                         *kOutput = "suppleGetQueryOutput", *kRecord = "suppleRecordQueries", *kRead = "suppleReadHits";
+    constexpr int kRange = SUPPLE_MESSAGE_OUT_OF_RANGE, kNull = SUPPLE_MESSAGE_NULL_POINTER;
+    using Desc = SuppleQueryPoolDesc;
+    const auto desc = [](World& w) {
+        Desc made{};
+        made.structSize = sizeof(made);
+        made.groups = &w.mine.main.group;
+        made.groupCount = 1;
+        made.rayCount = 4;
+        return made;
+    };
+    const auto create = [](World& w, const Desc* given) {
+        SuppleQueryPool* const out = w.newHandle<SuppleQueryPool>();
+        const SuppleResult result = suppleCreateQueryPool(w.handle(), given, out);
+        if (result == SUPPLE_OK) {
+            EXPECT_EQ(suppleDestroyQueryPool(w.handle(), *out), SUPPLE_OK);
+        } else {
+            EXPECT_EQ(out->id, 0u);
+        }
+        return result;
+    };
+    r.nullContext(kCreate, [=](World& w, SuppleContext c) {
+        const Desc given = desc(w);
+        return suppleCreateQueryPool(c, &given, w.newHandle<SuppleQueryPool>());
+    });
+    r.refuse(kCreate, "out null", kNull, [=](World& w) {
+        const Desc given = desc(w);
+        return suppleCreateQueryPool(w.handle(), &given, nullptr);
+    });
+    const auto spoiled = [&](const char* what, int message, auto spoil) {
+        r.refuse(kCreate, what, message, [=](World& w) {
+            Desc given = desc(w);
+            spoil(w, given);
+            return create(w, &given);
+        });
+    };
+    spoiled("flags", kRange, [](World&, Desc& d) { d.flags = 1; });
+    spoiled("groups null", kNull, [](World&, Desc& d) { d.groups = nullptr; });
+    spoiled("no groups", kNull, [](World&, Desc& d) { d.groupCount = 0; });
+    spoiled("no rays", kRange, [](World&, Desc& d) { d.rayCount = 0; });
+    spoiled("too many rays", kRange, [](World&, Desc& d) { d.rayCount = SUPPLE_MAX_QUERY_RAYS + 1; });
+    spoiled("stale group", SUPPLE_MESSAGE_STALE_HANDLE, [](World& w, Desc& d) { d.groups = &w.staleGroup; });
+    spoiled("foreign group", SUPPLE_MESSAGE_STALE_HANDLE, [](World& w, Desc& d) { d.groups = &w.theirs.main.group; });
+    spoiled("a group twice", SUPPLE_MESSAGE_CONFLICT, [](World& w, Desc& d) {
+        const SuppleGroup twice[2] = {w.mine.main.group, w.mine.main.group};
+        d.groups = *w.kept(twice);
+        d.groupCount = 2;
+    });
+    r.nullContext(kDestroy, [](World&, SuppleContext c) { return suppleDestroyQueryPool(c, {}); });
+    r.nullContext(kOutput, [](World& w, SuppleContext c) {
+        return suppleGetQueryOutput(c, {}, w.watched<SuppleQueryOutput>(sizeof(SuppleQueryOutput)));
+    });
+    r.nullContext(
+        kRead, [](World& w, SuppleContext c) { return suppleReadHits(c, {}, nullptr, w.plain<uint32_t>(1), nullptr); });
+    static constexpr SuppleRay kRays[] = {{{0, 0, 5}, 0, {0, 0, -1}, 100}, {{0, 9, 0}, 0, {kNan, 0, 0}, 1}};
+    using Batch = SuppleQueryDesc;
+    const auto batch = [] {
+        Batch made{};
+        made.structSize = sizeof(made);
+        made.flags = SUPPLE_QUERY_READ_BACK;
+        made.hostRays = kRays;
+        made.rayCount = 2;
+        return made;
+    };
+    r.nullContext(kRecord, [=](World& w, SuppleContext c) {
+        const Batch given = batch();
+        return suppleRecordQueries(c, w.commands, {}, &given);
+    });
+    for (const uint64_t id : {uint64_t{0}, ~uint64_t{0}}) {
+        constexpr int kStale = SUPPLE_MESSAGE_STALE_HANDLE;
+        r.refuse(kDestroy, "no pool", kStale, [=](World& w) { return suppleDestroyQueryPool(w.handle(), {id}); });
+        r.refuse(kOutput, "no pool", kStale, [=](World& w) {
+            return suppleGetQueryOutput(w.handle(), {id}, w.watched<SuppleQueryOutput>(sizeof(SuppleQueryOutput)));
+        });
+        r.refuse(kRead, "no pool", kStale,
+                 [=](World& w) { return suppleReadHits(w.handle(), {id}, nullptr, w.plain<uint32_t>(1), nullptr); });
+        r.refuse(kRecord, "no pool", kStale, [=](World& w) {
+            const Batch given = batch();
+            return suppleRecordQueries(w.handle(), w.commands, {id}, &given);
+        });
+    }
+#if defined(SUPPLE_WITH_CPU)
+    r.description<Desc>(kCreate, "desc", desc, create);
+    /// A call with a pool.
+    const auto with = [=](World& w, auto&& call) {
+        const Desc given = desc(w);
+        SuppleQueryPool pool{};
+        EXPECT_EQ(suppleCreateQueryPool(w.handle(), &given, &pool), SUPPLE_OK);
+        const SuppleResult result = call(pool);
+        EXPECT_EQ(suppleDestroyQueryPool(w.handle(), pool), SUPPLE_OK);
+        return result;
+    };
+    r.output<SuppleQueryOutput>(kOutput, [=](World& w, SuppleQueryOutput* out) {
+        return with(w, [&](SuppleQueryPool pool) { return suppleGetQueryOutput(w.handle(), pool, out); });
+    });
+    r.refuse(kRead, "count null", kNull, [=](World& w) {
+        return with(w,
+                    [&](SuppleQueryPool pool) { return suppleReadHits(w.handle(), pool, nullptr, nullptr, nullptr); });
+    });
+    r.add(kRead, "no frame", SUPPLE_NOT_READY, kSilent, [=](World& w) {
+        return with(w, [&](SuppleQueryPool pool) {
+            return suppleReadHits(w.handle(), pool, nullptr, w.plain<uint32_t>(1), nullptr);
+        });
+    });
+    const auto record = [=](World& w, const Batch* given) {
+        return with(w, [&](SuppleQueryPool pool) { return suppleRecordQueries(w.handle(), w.commands, pool, given); });
+    };
+    const auto spoiledBatch = [&](const char* what, int message, auto spoil) {
+        r.refuse(
+            kRecord, what, message,
+            [=](World& w) {
+                Batch given = batch();
+                spoil(w, given);
+                return record(w, &given);
+            },
+            Phase::recorded);
+    };
+    spoiledBatch("flags", kRange, [](World&, Batch& d) { d.flags = 2; });
+    spoiledBatch("groups without a count", kNull, [](World& w, Batch& d) { d.groups = &w.mine.main.group; });
+    spoiledBatch("a count without groups", kNull, [](World&, Batch& d) { d.groupCount = 1; });
+    spoiledBatch("a group that the pool lacks", SUPPLE_MESSAGE_STALE_HANDLE, [](World& w, Batch& d) {
+        d.groups = &w.spare.group;
+        d.groupCount = 1;
+    });
+    spoiledBatch("too many rays", kRange, [](World&, Batch& d) { d.rayCount = 5; });
+    const auto bufferOf = [](World& w) {
+        SuppleGroupInfo info{};
+        info.structSize = sizeof(info);
+        EXPECT_EQ(suppleGetGroupInfo(w.handle(), w.mine.main.group, &info), SUPPLE_OK);
+        return info.deformedCage;
+    };
+    spoiledBatch("two kinds of rays", kNull, [=](World& w, Batch& d) { d.rays = bufferOf(w); });
+    spoiledBatch("two kinds of triangles", kNull, [=](World& w, Batch& d) {
+        d.hostTriangles = w.plain<SuppleTriangleHit>(2);
+        d.triangles = bufferOf(w);
+    });
+    spoiledBatch("triangles beyond their range", kRange, [=](World& w, Batch& d) {
+        d.triangles = bufferOf(w);
+        d.triangles.size = 63;
+    });
+    spoiledBatch("no rays", kNull, [](World&, Batch& d) { d.hostRays = nullptr; });
+    r.refuse(
+        kRecord, "commandBuffer null", kNull,
+        [=](World& w) {
+            const Batch given = batch();
+            return with(
+                w, [&](SuppleQueryPool pool) { return suppleRecordQueries(w.handle(), VK_NULL_HANDLE, pool, &given); });
+        },
+        Phase::recorded);
+    r.refuse(
+        kRecord, "desc null", kNull, [=](World& w) { return record(w, nullptr); }, Phase::recorded);
+    r.refuse(
+        kRecord, "desc->structSize 0", SUPPLE_MESSAGE_STRUCT_SIZE, [=](World& w) { return record(w, w.kept(Batch{})); },
+        Phase::recorded);
+    for (const Phase phase : {Phase::fresh, Phase::begun, Phase::cancelled}) {
+        r.refuse(
+            kRecord, "no suppleRecord in the frame", SUPPLE_MESSAGE_OUT_OF_ORDER,
+            [=](World& w) { return record(w, w.kept(batch())); }, phase);
+    }
+    r.accept(
+        kRecord, "valid", [=](World& w) { return record(w, w.kept(batch())); }, Phase::recorded);
+    r.refuse(
+        kRecord, "twice", SUPPLE_MESSAGE_OUT_OF_ORDER,
+        [=](World& w) {
+            return with(w, [&](SuppleQueryPool pool) {
+                EXPECT_EQ(suppleRecordQueries(w.handle(), w.commands, pool, w.kept(batch())), SUPPLE_OK);
+                return suppleRecordQueries(w.handle(), w.commands, pool, w.kept(batch()));
+            });
+        },
+        Phase::recorded);
+#endif
+}
+
 std::vector<Row> allRows() {
     Rows r;
     withoutContext(r);
@@ -2823,6 +2999,7 @@ std::vector<Row> allRows() {
     measurements(r);
     memoryUses(r);
     points(r);
+    queries(r);
     return std::move(r.rows);
 }
 
@@ -2941,7 +3118,8 @@ TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
     std::string header;
     std::vector<const char*> names{"supple.h",         "supple_view.h",      "supple_playback.h",
                                    "supple_prepare.h", "supple_character.h", "supple_recording.h",
-                                   "supple_points.h",  "supple_rays.h",      "supple_direct.h"};
+                                   "supple_points.h",  "supple_queries.h",   "supple_rays.h",
+                                   "supple_direct.h"};
 #if defined(SUPPLE_WITH_CPU)
     names.push_back("supple_cpu.h");
 #endif

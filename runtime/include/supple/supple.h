@@ -12,9 +12,9 @@
  *
  * This header is in the order of use. supple_character.h (characters from arrays), supple_prepare.h (characters read on
  * any thread), supple_view.h (level of detail, culling), supple_playback.h (layers of clips, root motion, clips that
- * the device plays), supple_points.h (points that ride on surfaces), supple_rays.h (ray tracing), supple_direct.h
- * (evaluation while drawing) and supple_recording.h (what a host does, to be replayed) are for hosts that need them.
- * This header includes all eight at its end.
+ * the device plays), supple_points.h (points that ride on surfaces), supple_queries.h (what rays meet), supple_rays.h
+ * (ray tracing), supple_direct.h (evaluation while drawing) and supple_recording.h (what a host does, to be replayed)
+ * are for hosts that need them. This header includes all nine at its end.
  *
  * Structs
  *   - Most structs begin with structSize. Set it to sizeof the struct before the call, also in structs that Supple
@@ -1824,6 +1824,7 @@ SUPPLE_API SuppleResult suppleSetMemoryBudget(SuppleContext context, VkDeviceSiz
 #include "supple_playback.h"  /* IWYU pragma: export */
 #include "supple_points.h"    /* IWYU pragma: export */
 #include "supple_prepare.h"   /* IWYU pragma: export */
+#include "supple_queries.h"   /* IWYU pragma: export */
 #include "supple_rays.h"      /* IWYU pragma: export */
 #include "supple_recording.h" /* IWYU pragma: export */
 #include "supple_view.h"      /* IWYU pragma: export */

@@ -1,0 +1,150 @@
+/**
+ * @file supple_queries.h
+ * Queries on the device: what rays meet first, among the instances of some groups, as they are posed in this frame. The
+ * device reads no surface vertices and the host waits for nothing. supple.h includes this header;
+ * docs/surface_points.md shows how it is used.
+ *
+ * A hit is a point of a surface (SuppleSurfacePoint) on an instance, with its position and normal. It lies on the limit
+ * of the surface, as points of point sets do, so it is the same at every rate and level of detail. Groups with
+ * SUPPLE_SCHEME_CAGE are met too.
+ */
+#ifndef SUPPLE_QUERIES_H
+#define SUPPLE_QUERIES_H
+
+#include "supple.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SUPPLE_NO_HIT 0xFFFFFFFFu    /**< SuppleHit.group: the ray meets nothing */
+#define SUPPLE_MAX_QUERY_RAYS 65536u /**< SuppleQueryPoolDesc.rayCount */
+
+/** Memory and pipelines for the queries of some groups: one batch of rays a frame. */
+typedef struct SuppleQueryPool {
+    uint64_t id; /**< 0 is never a valid handle */
+} SuppleQueryPool;
+
+/** A ray, in the coordinates of surface vertices (suppleSetOrigin). It is met at origin + t * direction, from tMin to
+ * tMax. The direction need not have a length of 1. tMin below 0 means 0, and tMax may be infinite. If a number is not
+ * finite otherwise, or the direction has no length, this ray meets nothing. */
+typedef struct SuppleRay {
+    float origin[3];    /**< where it begins */
+    float tMin;         /**< nothing is met before */
+    float direction[3]; /**< where it goes */
+    float tMax;         /**< nothing is met behind */
+} SuppleRay;
+
+/** SuppleHit.flags. */
+typedef enum SuppleHitFlags {
+    SUPPLE_HIT_BACK = 1, /**< the surface is met from behind */
+    SUPPLE_HIT_FLAGS_MAX_ENUM = 0x7FFFFFFF
+} SuppleHitFlags;
+
+/** What a ray meets first, from either side: 64 bytes, on the device as for the host. */
+typedef struct SuppleHit {
+    float t;                  /**< along the ray, in lengths of its direction; infinity if it meets nothing */
+    uint32_t group;           /**< number of the group in SuppleQueryPoolDesc.groups, or SUPPLE_NO_HIT */
+    uint32_t slot;            /**< of the instance, in its group */
+    uint32_t flags;           /**< SuppleHitFlags */
+    SuppleSurfacePoint point; /**< where on the cage: face SUPPLE_NO_FACE if it meets nothing */
+    float position[3];        /**< in the coordinates of surface vertices */
+    float reserved;           /**< 0 */
+    float normal[3];          /**< of unit length, outwards; zero if the surface has none there */
+    float reservedToo;        /**< 0 */
+} SuppleHit;
+
+/** What a tracer of a group's triangles, be it hardware, says that a ray has met: 32 bytes. */
+typedef struct SuppleTriangleHit {
+    uint32_t group;   /**< number of the group in SuppleQueryPoolDesc.groups, or SUPPLE_NO_HIT: the ray meets nothing */
+    uint32_t surface; /**< of the group */
+    uint32_t slot;    /**< of the instance */
+    uint32_t geometry;  /**< draw range of the surface: geometryIndex, if it was built as suppleGetRayGeometry says */
+    uint32_t primitive; /**< triangle of that range: primitiveIndex */
+    float t;            /**< along the ray, in lengths of its direction */
+    float reserved[2];  /**< not looked at: barycentrics, say */
+} SuppleTriangleHit;
+
+/** What a pool is for. Pointers are needed during the call only. */
+typedef struct SuppleQueryPoolDesc {
+    uint32_t structSize;
+    uint32_t flags;            /**< 0 */
+    const SuppleGroup* groups; /**< groupCount of them, each once: hits name them by number */
+    uint32_t groupCount;       /**< 1 and more */
+    uint32_t rayCount;         /**< how many rays a frame has at most: 1 to SUPPLE_MAX_QUERY_RAYS */
+} SuppleQueryPoolDesc;
+
+/** Filled by suppleGetQueryOutput. */
+typedef struct SuppleQueryOutput {
+    uint32_t structSize;
+    uint32_t rayCount;      /**< as in the description */
+    SuppleBufferRange hits; /**< SuppleHit, one a ray, in the order of the rays */
+} SuppleQueryOutput;
+
+/** SuppleQueryDesc.flags. */
+typedef enum SuppleQueryFlags {
+    SUPPLE_QUERY_READ_BACK = 1, /**< for suppleReadHits: hits are copied to where the host reads them */
+    SUPPLE_QUERY_FLAGS_MAX_ENUM = 0x7FFFFFFF
+} SuppleQueryFlags;
+
+/** What suppleRecordQueries is asked. Pointers are needed during the call only. */
+typedef struct SuppleQueryDesc {
+    uint32_t structSize;
+    uint32_t flags;            /**< SuppleQueryFlags */
+    const SuppleGroup* groups; /**< optional: groupCount of the pool's groups. Null: all that it still has */
+    uint32_t groupCount;       /**< 0 without groups */
+    uint32_t rayCount;         /**< 0: nothing is recorded */
+    const SuppleRay* hostRays; /**< rays of the host; or null */
+    /** Or rays of the device, from its offset on, a multiple of 4: a buffer with VK_BUFFER_USAGE_TRANSFER_SRC_BIT. Its
+     * stride is not asked. */
+    SuppleBufferRange rays;
+    /** Optional: what the rays have met of triangles that were drawn at a rate, one for each ray. Then rays are not
+     * cast. A hit is the point of the triangle's face that the ray comes nearest to, near that t. It may lie beside its
+     * ray, as triangles reach beyond the surface at silhouettes. If there is no such triangle, or no such point,
+     * nothing is met. Groups with levels have no triangles to name. */
+    const SuppleTriangleHit* hostTriangles;
+    SuppleBufferRange triangles; /**< or those of the device, as rays */
+    SuppleSyncScope before; /**< what wrote the device's rays and triangles, and what used the hits of earlier frames */
+    SuppleSyncScope after;  /**< what reads the hits on the device */
+} SuppleQueryDesc;
+
+/** Makes a pool: all memory and all pipelines that its queries need, so that recording allocates nothing.
+ *
+ * Each group's surfaces become pieces: polynomials of its cage's vertices, which no pose changes. They are shared by
+ * all instances and made anew by each pool; docs/surface_points.md says how long that takes and what they take.
+ * suppleSetCapacity and suppleReloadAsset make a group's part of the pool anew. A group that is destroyed leaves the
+ * pool; the others keep their numbers.
+ *
+ * Errors: a stale handle; flags; no groups, or one twice; no rays or too many; what suppleCreatePointSet refuses of a
+ * group; pieces that hang on more than 4096 vertices or need more memory than the device binds; more rays, instances
+ * and pieces than 32 bits number together; memory. SUPPLE_ERROR_UNSUPPORTED if the library was built with
+ * SUPPLE_WITH_CPU=OFF. `out->id` is 0 then. */
+SUPPLE_API SuppleResult suppleCreateQueryPool(SuppleContext context, const SuppleQueryPoolDesc* desc,
+                                              SuppleQueryPool* out);
+/** Its buffers stay until all frames that may use them are complete. */
+SUPPLE_API SuppleResult suppleDestroyQueryPool(SuppleContext context, SuppleQueryPool pool);
+/** Where the hits of a pool are on the device. They stay there as long as the pool. */
+SUPPLE_API SuppleResult suppleGetQueryOutput(SuppleContext context, SuppleQueryPool pool, SuppleQueryOutput* out);
+
+/** Records what rays meet, once a frame at most: behind suppleRecord of the groups, in the same frame and queue,
+ * outside of render passes. Instances take part that suppleRecord deforms in this frame: hidden ones do not, nor those
+ * that it leaves out as their view does not see them (SUPPLE_VIEW_CULL without SUPPLE_GROUP_POSE_UNSEEN), nor groups
+ * that wait for their uploads. Parts that an instance hides are met. A pool is used by one thread at a time.
+ *
+ * Errors: a stale handle; unknown flags; more rays than the pool is for; both kinds of rays or none; rays beyond the
+ * range; a group that the pool lacks, or that no suppleRecord of this frame has; a second call for this frame. */
+SUPPLE_API SuppleResult suppleRecordQueries(SuppleContext context, VkCommandBuffer commandBuffer, SuppleQueryPool pool,
+                                            const SuppleQueryDesc* desc);
+
+/** Copies the hits of the newest completed frame (suppleBeginFrame) that recorded queries of the pool with
+ * SUPPLE_QUERY_READ_BACK. `*count` is what out has room for, and becomes the number of rays of that frame; out may be
+ * null to ask for it. frame, which may be null, gets that frame. SUPPLE_NOT_READY: there is no such frame, and *count
+ * is 0. SUPPLE_INCOMPLETE: out is full. Never waits. */
+SUPPLE_API SuppleResult suppleReadHits(SuppleContext context, SuppleQueryPool pool, SuppleHit* out, uint32_t* count,
+                                       uint64_t* frame);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* SUPPLE_QUERIES_H */

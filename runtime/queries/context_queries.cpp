@@ -1,0 +1,202 @@
+// The query pools of a context.
+#include "gpu/barriers.h"
+#include "runtime/context.h"
+#include "runtime/queries/triangle_faces.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace supple::runtime {
+
+namespace {
+
+constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
+constexpr VkAccessFlags2 kAll =
+    kWrites | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT;
+
+QuerySource sourceOf(const std::shared_ptr<Group>& group) {
+    const PointSource points = group->pointSource();
+    const uint32_t vertices = group->asset().character.cage.vertexCount();
+    return {points.device, points.listing, points.cages, points.cageStride, vertices, &group->surfaces(), group};
+}
+
+/// Lanes own hits by number, and kNothingMet is none.
+Status checkLanes(uint64_t lanes) {
+    return lanes < std::numeric_limits<uint32_t>::max()
+               ? success()
+               : Status(Error{ErrorCode::limit, "its groups have " + std::to_string(lanes) +
+                                                    " pieces on all instances, more than 32 bits number"});
+}
+
+uint64_t mostLanes(const QueryPool& pool) {
+    uint64_t lanes = 0;
+    for (const QueryPool::Member& member : pool.members()) {
+        lanes += member.group != nullptr ? member.group->mostLanes() : 0;
+    }
+    return lanes;
+}
+
+} // namespace
+
+Result<std::shared_ptr<QueryGroup>> Context::queryGroup(const std::shared_ptr<Group>& group,
+                                                        std::shared_ptr<QueryPieces> pieces,
+                                                        const QueryBuffers& buffers) {
+    const Result<QueryKernels*> kernels = kernels_->queries();
+    if (!kernels) {
+        return kernels.error();
+    }
+    if (const Status prepared = (*kernels)->prepare(); !prepared) {
+        return prepared.error();
+    }
+    if (pieces == nullptr) {
+        const auto surfaces = surfacesOf(*group);
+        if (!surfaces) {
+            return surfaces.error();
+        }
+        Result<PieceTable> table = pieceTable(**surfaces, QueryPieces::mostElements(*device_));
+        if (!table) {
+            return table.error();
+        }
+        auto made = QueryPieces::create(*device_, std::move(*table));
+        if (!made) {
+            return made.error();
+        }
+        pieces = std::move(*made);
+    }
+    return QueryGroup::create(sourceOf(group), **kernels, std::move(pieces), buffers);
+}
+
+Result<uint64_t> Context::createQueryPool(const SuppleQueryPoolDesc& desc) {
+    Result<std::shared_ptr<QueryPool>> pool = QueryPool::create(*device_, desc.rayCount, framesInFlight_);
+    if (!pool) {
+        return Error{pool.error().code, "suppleCreateQueryPool: " + pool.error().message};
+    }
+    for (uint32_t g = 0; g < desc.groupCount; ++g) {
+        const std::shared_ptr<Group> group = groups.find(desc.groups[g].id);
+        Result<std::shared_ptr<QueryGroup>> made = queryGroup(group, nullptr, (*pool)->buffers());
+        if (!made) {
+            return Error{made.error().code, "suppleCreateQueryPool: group " + std::to_string(g) + " (" +
+                                                group->asset().character.name + "): " + made.error().message};
+        }
+        (*pool)->add(desc.groups[g].id, std::move(*made));
+    }
+    if (const Status lanes = checkLanes(mostLanes(**pool)); !lanes) {
+        return Error{lanes.error().code, "suppleCreateQueryPool: " + lanes.error().message};
+    }
+    (*pool)->makeRoom();
+    makeRoom(retiredPools_, queryPools.slotCount() + 1);
+    return queryPools.insert(std::move(*pool));
+}
+
+bool Context::destroyQueryPool(uint64_t id) {
+    std::shared_ptr<QueryPool> pool = queryPools.remove(id);
+    if (pool == nullptr) {
+        return false;
+    }
+    retiredPools_.push_back(retired(std::move(pool)));
+    return true;
+}
+
+void Context::dropQueries(uint64_t group) {
+    queryPools.forEach([&](QueryPool& pool) {
+        if (QueryPool::Member* const member = pool.find(group)) {
+            pool.put(*member, nullptr, frame_);
+        }
+    });
+}
+
+Status Context::remakeQueries(const Group& before, Remade& remade) {
+    const bool sameAsset = before.sharedAsset() == remade.group->sharedAsset();
+    std::shared_ptr<QueryPieces> pieces;
+    Status status = success();
+    queryPools.forEachId([&](uint64_t id, QueryPool& pool) {
+        const QueryPool::Member* const member = pool.find(remade.id);
+        if (!status || member == nullptr) {
+            return;
+        }
+        pieces = sameAsset ? member->group->pieces() : pieces;
+        Result<std::shared_ptr<QueryGroup>> made = queryGroup(remade.group, pieces, pool.buffers());
+        status = made ? checkLanes(mostLanes(pool) - member->group->mostLanes() + (*made)->mostLanes())
+                      : Status(made.error());
+        if (!status) {
+            const char* const function = sameAsset ? "suppleSetCapacity: " : "suppleReloadAsset: ";
+            status = Error{status.error().code, function + remade.group->asset().character.name +
+                                                    ": a query pool of its group: " + status.error().message};
+            return;
+        }
+        pieces = (*made)->pieces();
+        pool.makeRoom();
+        remade.queries.push_back({id, std::move(*made)});
+    });
+    return status;
+}
+
+void Context::replaceQueries(const Remade& remade) {
+    for (const Remade::Queries& own : remade.queries) {
+        QueryPool& pool = *queryPools.at(own.pool);
+        pool.put(*pool.find(remade.id), own.group, frame_);
+    }
+}
+
+Status Context::askGroups(QueryPool& pool, const SuppleQueryDesc& desc) const {
+    for (QueryPool::Member& member : pool.members()) {
+        const Group* const group = member.group != nullptr ? groups.at(member.id) : nullptr;
+        member.isAsked = desc.groups == nullptr && group != nullptr && group->askedFrame() == frame_;
+        member.isEmpty = group != nullptr && group->waitsIn(frame_);
+        member.rate = group != nullptr ? rateOf(group->surfaces()) : 1;
+    }
+    for (uint32_t g = 0; g < desc.groupCount; ++g) {
+        const std::string name = "suppleRecordQueries: group " + std::to_string(g);
+        QueryPool::Member* const member = pool.find(desc.groups[g].id);
+        if (member == nullptr) {
+            return Error{ErrorCode::staleHandle, name + ": the pool has no such group"};
+        }
+        if (groups.at(member->id)->askedFrame() != frame_) {
+            return Error{ErrorCode::order, name + ": no suppleRecord of this frame has it"};
+        }
+        member->isAsked = true;
+    }
+    const auto members = pool.members();
+    return std::any_of(members.begin(), members.end(), [](const QueryPool::Member& own) { return own.isAsked; })
+               ? success()
+               : Status(
+                     Error{ErrorCode::order, "suppleRecordQueries: no suppleRecord of this frame has a group of it"});
+}
+
+Status Context::recordQueries(VkCommandBuffer commandBuffer, QueryPool& pool, const SuppleQueryDesc& desc) {
+    if (Status open = checkOpen("suppleRecordQueries"); !open) {
+        return open;
+    }
+    if (pool.hasBatch(frame_)) {
+        return Error{ErrorCode::order, "suppleRecordQueries: the frame has a batch of the pool already"};
+    }
+    if (desc.rayCount == 0) {
+        return success();
+    }
+    if (Status asked = askGroups(pool, desc); !asked) {
+        return asked;
+    }
+    device_->beginLabel(commandBuffer, "supple queries");
+    gpu::memoryBarrier(*device_, commandBuffer,
+                       {desc.before.stages | kCompute | kTransfer, desc.before.access | kWrites},
+                       {kCompute | kTransfer, kAll});
+    {
+        const std::scoped_lock lock(uploading_);
+        pool.recordStatics(commandBuffer, frame_);
+    }
+    pool.record(commandBuffer, frame_,
+                {{desc.hostRays, desc.rays.buffer, desc.rays.offset},
+                 {desc.hostTriangles, desc.triangles.buffer, desc.triangles.offset},
+                 desc.rayCount,
+                 (desc.flags & SUPPLE_QUERY_READ_BACK) != 0});
+    if (desc.after.stages != 0) {
+        gpu::memoryBarrier(*device_, commandBuffer, {kCompute | kTransfer, kWrites},
+                           {desc.after.stages, desc.after.access});
+    }
+    device_->endLabel(commandBuffer);
+    return success();
+}
+
+} // namespace supple::runtime

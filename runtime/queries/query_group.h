@@ -1,0 +1,99 @@
+// What a query pool has of one group: the pieces of its surfaces, and the sets that its kernels bind.
+#pragma once
+
+#include "gpu/bound_sets.h"
+#include "gpu/buffer_plan.h"
+#include "gpu/static_buffers.h"
+#include "runtime/instance_listing.h"
+#include "runtime/queries/query_kernels.h"
+#include "runtime/queries/query_pieces.h"
+#include "runtime/surfaces.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace supple::runtime {
+
+/// The pieces on the device.
+struct QueryPieces {
+    gpu::StaticBuffers table;
+    std::vector<FacePieces> ofFaces;
+    uint32_t count = 0;
+    float reach = 0.0f;
+
+    [[nodiscard]] static Result<std::shared_ptr<QueryPieces>> create(const gpu::Device& device, PieceTable table);
+    /// How many elements of a table the device binds.
+    [[nodiscard]] static uint64_t mostElements(const gpu::Device& device);
+};
+
+/// Where a group's instances are. What it points to must outlive the QueryGroup.
+struct QuerySource {
+    const gpu::Device* device = nullptr;
+    const InstanceListing* listing = nullptr;
+    VkBuffer cages = VK_NULL_HANDLE; ///< deformed, of all instances
+    uint32_t cageStride = 0;         ///< vertices
+    uint32_t vertexCount = 0;        ///< of a cage
+    const Surfaces* surfaces = nullptr;
+    std::shared_ptr<const void> keeper; ///< of the listing
+};
+/// The buffers of the pool.
+struct QueryBuffers {
+    VkBuffer rays = VK_NULL_HANDLE, best = VK_NULL_HANDLE, hits = VK_NULL_HANDLE;
+};
+
+class QueryGroup {
+public:
+    /// Kernels must outlive it.
+    [[nodiscard]] static Result<std::shared_ptr<QueryGroup>> create(QuerySource source, const QueryKernels& kernels,
+                                                                    std::shared_ptr<QueryPieces> pieces,
+                                                                    const QueryBuffers& buffers);
+    /// What frames upload once.
+    template <class F>
+    void forStatics(F&& visit) const {
+        visit(pieces_->table);
+        visit(*triangles_);
+    }
+    [[nodiscard]] bool staticsPending() const {
+        return pieces_->table.staticsPending() || triangles_->staticsPending();
+    }
+
+    [[nodiscard]] const std::shared_ptr<QueryPieces>& pieces() const { return pieces_; }
+    /// How many lanes its largest frame has, which own a hit by number.
+    [[nodiscard]] uint64_t mostLanes() const;
+    [[nodiscard]] gpu::MemoryUse memoryUse() const;
+
+    /// What all windows of a batch have in common, and what is counted over them.
+    struct Batch {
+        uint32_t rayCount = 0;
+        uint32_t group = 0;         ///< its number in the pool
+        uint32_t firstLane = 0;     ///< of the group
+        bool writesMisses = false;  ///< its first window does
+        bool isEmpty = false;       ///< no instance of it takes part
+        uint32_t firstTriangle = 0; ///< hits of triangles, among the rays
+        uint32_t rate = 1;          ///< of the group's grids and meshes
+    };
+    /// Of the frame that is recorded.
+    [[nodiscard]] uint32_t lanes() const;
+    void recordBoxes(gpu::Dispatches& dispatches, const Batch& batch) const;
+    void recordPick(gpu::Dispatches& dispatches, const Batch& batch, uint32_t work) const;
+    void recordFinish(gpu::Dispatches& dispatches, const Batch& batch) const;
+    /// Hits of triangles, over misses.
+    void recordRefine(gpu::Dispatches& dispatches, const Batch& batch) const;
+
+private:
+    [[nodiscard]] Status createBuffers();
+    [[nodiscard]] Status createSets(const QueryBuffers& buffers);
+    /// Calls record(set, push) for each window that has instances.
+    template <class F>
+    void forWindows(const Batch& batch, F&& record) const;
+
+    QuerySource source_;
+    const QueryKernels* kernels_ = nullptr;
+    std::shared_ptr<QueryPieces> pieces_;
+    gpu::BufferSet boxes_;
+    std::unique_ptr<gpu::StaticBuffers> triangles_; ///< triangleFaces()
+    gpu::TexelViews views_;
+    gpu::BoundSets sets_; ///< by window
+};
+
+} // namespace supple::runtime

@@ -1,0 +1,92 @@
+#include "runtime/queries/query_kernels.h"
+
+#include "shaders/queries_boxes_comp.h"
+#include "shaders/queries_finish_comp.h"
+#include "shaders/queries_pick_comp.h"
+#include "shaders/queries_refine_comp.h"
+#include "supple/supple_queries.h"
+
+#include <algorithm>
+
+namespace supple::runtime {
+
+using namespace supple::shared;
+
+namespace {
+
+static_assert(sizeof(QueryPush) <= gpu::kPushConstantBytes);
+static_assert(sizeof(SuppleRay) == 32 && sizeof(SuppleTriangleHit) == 32 && sizeof(SuppleHit) == 64);
+
+/// Lanes of a dispatch at most, so that their numbers have room in 32 bits.
+constexpr uint64_t kMostLanes = uint64_t{1} << 30;
+
+} // namespace
+
+Result<QueryKernels> QueryKernels::create(const gpu::Device& device, gpu::Pipelines& pipelines) {
+    const gpu::Binding bindings[] = {
+        gpu::wideStorage(kPieceBinding),     gpu::narrowTexels(kPieceTexelBinding),
+        gpu::wideStorage(kQueryCageBinding), gpu::narrowTexels(kQueryCageTexelBinding),
+        gpu::storage(kRayBinding),           gpu::storage(kBestBinding),
+        gpu::storage(kQueryBoxBinding),      gpu::storage(kHitBinding),
+        gpu::wideStorage(kInstanceBinding),  gpu::narrowTexels(kInstanceTexelBinding),
+        gpu::storage(kTriangleBinding),
+    };
+    QueryKernels made;
+    made.device_ = &device;
+    made.pipelines_ = &pipelines;
+    Result<gpu::ComputeLayout> layout =
+        gpu::ComputeLayout::create(device, bindings, sizeof(QueryPush), "supple queries");
+    if (!layout) {
+        return layout.error();
+    }
+    made.layout_ = std::move(*layout);
+    return made;
+}
+
+Status QueryKernels::prepare() {
+    gpu::Pipelines::Batch batch(*pipelines_);
+    const gpu::Kernel boxes = batch.get(layout_, queries_boxes_comp, {}, "supple queries, boxes"),
+                      pick = batch.get(layout_, queries_pick_comp, {}, "supple queries, pick"),
+                      finish = batch.get(layout_, queries_finish_comp, {}, "supple queries, hits"),
+                      refine = batch.get(layout_, queries_refine_comp, {}, "supple queries, refine");
+    if (const Status made = batch.make(); !made) {
+        return made;
+    }
+    boxes_ = boxes;
+    pick_ = pick;
+    finish_ = finish;
+    refine_ = refine;
+    return success();
+}
+
+void QueryKernels::recordBoxes(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
+    const uint64_t local = device_->mapping.wide ? 1 : device_->mapping.localSize;
+    dispatches.dispatch(boxes_, set, push, (push.instanceCount + local - 1) / local);
+}
+
+void QueryKernels::recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, QueryPush push) const {
+    const uint64_t local = device_->mapping.localSize, lanes = uint64_t{push.pieceCount} * push.instanceCount;
+    const auto rays =
+        static_cast<uint32_t>(std::min<uint64_t>(std::max<uint64_t>(kMostLanes / std::max<uint64_t>(lanes, 1), 1),
+                                                 UINT32_MAX / kRaysPerLane) *
+                              kRaysPerLane);
+    const uint32_t end = push.rayCount;
+    for (uint32_t first = 0; first < end; first += std::min(rays, end - first)) {
+        push.firstRay = first;
+        push.rayCount = first + std::min(rays, end - first);
+        const uint64_t blocks = (push.rayCount - first + kRaysPerLane - 1) / kRaysPerLane;
+        dispatches.dispatch(pick_, set, push, (lanes * blocks + local - 1) / local);
+    }
+}
+
+void QueryKernels::recordRefine(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
+    const uint64_t local = device_->mapping.localSize;
+    dispatches.dispatch(refine_, set, push, (push.rayCount + local - 1) / local);
+}
+
+void QueryKernels::recordFinish(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
+    const uint64_t local = device_->mapping.localSize;
+    dispatches.dispatch(finish_, set, push, (push.rayCount + local - 1) / local);
+}
+
+} // namespace supple::runtime
