@@ -4,7 +4,6 @@
 #include "runtime/sized.h"
 #include "supple/supple.h"
 #include "supple/supple_cpu.h"
-#include "supple/supple_queries.h"
 
 #include <string>
 

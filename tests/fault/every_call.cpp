@@ -4,7 +4,6 @@
 #include "tests/support/logged_context.h"
 #if defined(SUPPLE_WITH_CPU)
 #include "supple/supple_cpu.h"
-#include "supple/supple_queries.h"
 #endif
 
 #include <array>

@@ -6,7 +6,6 @@
 #include "tests/support/not_finite.h"
 #if defined(SUPPLE_WITH_CPU)
 #include "supple/supple_cpu.h"
-#include "supple/supple_queries.h"
 #endif
 
 #include <algorithm>
@@ -3116,10 +3115,9 @@ TEST(ApiWalk, EveryFunctionRefusesWhatIsWrongAndNothingElseHappens) {
 
 TEST(ApiWalk, LeavesNoFunctionOfTheHeaderOut) {
     std::string header;
-    std::vector<const char*> names{"supple.h",         "supple_view.h",      "supple_playback.h",
-                                   "supple_prepare.h", "supple_character.h", "supple_recording.h",
-                                   "supple_points.h",  "supple_queries.h",   "supple_rays.h",
-                                   "supple_direct.h"};
+    std::vector<const char*> names{"supple.h",           "supple_view.h",      "supple_playback.h", "supple_prepare.h",
+                                   "supple_character.h", "supple_recording.h", "supple_points.h",   "supple_queries.h",
+                                   "supple_rays.h",      "supple_direct.h"};
 #if defined(SUPPLE_WITH_CPU)
     names.push_back("supple_cpu.h");
 #endif

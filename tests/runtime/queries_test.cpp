@@ -18,7 +18,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <optional>
-#include <supple/supple_queries.h>
 #include <tuple>
 
 namespace supple::test {

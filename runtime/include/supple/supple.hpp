@@ -241,6 +241,9 @@ inline void destroy(SuppleContext context, SuppleInstance instance) {
 inline void destroy(SuppleContext context, SupplePointSet set) {
     suppleDestroyPointSet(context, set);
 }
+inline void destroy(SuppleContext context, SuppleQueryPool pool) {
+    suppleDestroyQueryPool(context, pool);
+}
 
 /// Owns a handle, or nothing. The context must outlive it.
 template <class Handle>
@@ -561,6 +564,32 @@ public:
     [[nodiscard]] SuppleResult output(SupplePointOutput& out) const {
         out = sized<SupplePointOutput>();
         return suppleGetPointOutput(context_, handle_, &out);
+    }
+};
+
+/// Owns a SuppleQueryPool. Its context must outlive it.
+class QueryPool : public Owner<SuppleQueryPool> {
+public:
+    /// Replaces what `out` held.
+    [[nodiscard]] static SuppleResult create(const Context& context, const SuppleQueryPoolDesc& desc, QueryPool& out) {
+        return out.replace(context.handle(), [&](SuppleQueryPool& made) {
+            return suppleCreateQueryPool(context.handle(), &desc, &made);
+        });
+    }
+
+    [[nodiscard]] SuppleResult output(SuppleQueryOutput& out) const {
+        out = sized<SuppleQueryOutput>();
+        return suppleGetQueryOutput(context_, handle_, &out);
+    }
+    [[nodiscard]] SuppleResult record(VkCommandBuffer commandBuffer, const SuppleQueryDesc& desc) const {
+        return suppleRecordQueries(context_, commandBuffer, handle_, &desc);
+    }
+    /// Replaces what `out` held by the hits of the newest completed frame, one for each of its rays.
+    [[nodiscard]] SuppleResult readHits(std::vector<SuppleHit>& out, uint64_t* frame = nullptr) const {
+        uint32_t count = 0;
+        const SuppleResult result = suppleReadHits(context_, handle_, nullptr, &count, frame);
+        out.resize(count);
+        return result == SUPPLE_OK ? suppleReadHits(context_, handle_, out.data(), &count, frame) : result;
     }
 };
 
