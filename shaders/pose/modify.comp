@@ -18,13 +18,13 @@ Transform nodeLocal(uint node) {
     return t;
 }
 bool listed = false;
-void keepLocal(uint node, Transform t) {
-    precise Transform local = t;
-    uint i = locals + kAffineElements * node;
-    if (listed) {
-        scratch.at[i] = vec4(local.translation, 0.0);
-        scratch.at[i + 1u] = local.rotation;
-    }
+void keepTranslation(uint node, vec3 translation) {
+    precise vec3 own = translation;
+    if (listed) scratch.at[locals + kAffineElements * node] = vec4(own, 0.0);
+}
+void keepRotation(uint node, vec4 rotation) {
+    precise vec4 own = rotation;
+    if (listed) scratch.at[locals + kAffineElements * node + 1u] = own;
 }
 Affine placement() {
     uint i = locals + kAffineElements * push.nodeCount;
