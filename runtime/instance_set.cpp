@@ -59,6 +59,7 @@ Status InstanceSet::makePipelines() {
     needs.steps = room.hasSteps();
     needs.springs = room.springs;
     needs.drivers = desc_.asset->hasDrivers();
+    needs.morphs = desc_.asset->hasMorphs();
     needs.clips = skinning::clipKinds(desc_.asset->character);
     const Result<skinning::PosePipelines> made = desc_.pose->make(desc_.mode, needs);
     if (made) {

@@ -108,6 +108,7 @@ Status makeStages(const PipelineMakers& makers, const Prepared& prepared, const 
             (group.desc.flags & SUPPLE_GROUP_SPRINGS) != 0 && !prepared.character.springBones.springs.empty();
         needs.steps = needs.springs || planned.jiggles || planned.cloths;
         needs.drivers = planned.morphs && !prepared.character.drivers.empty();
+        needs.morphs = planned.morphs;
         needs.clips = skinning::clipKinds(prepared.character);
         if (const Result<skinning::PosePipelines> made = (*pose)->make(planned.skinning, needs); !made) {
             return made.error();

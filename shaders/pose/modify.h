@@ -139,6 +139,7 @@ void lowerFeet(uint node, float lowered) {
 // A modifier takes a turn for each joint of a chain that aims; to lower, one for each modifier behind it, and the last for itself;
 // else one. In a turn it asks where up to three joints are, and changes up to three. Drivers compile a function once for every place
 // that calls it. So what most kinds need is called in one place, and kinds are told apart around it.
+
 // The number of turns of a modifier, by its words. `behind`: the modifiers behind it.
 uint turnsOf(uvec4 ids, uint behind) {
     uint kind = ids.x & 255u, turns = 1u;
@@ -191,7 +192,8 @@ void keepRotations(Modifier own, uint node, uint count, Rotations rotations) {
 vec4 aimed(Modifier own, Joints joints, uint step, SUPPLE_INOUT(float) weight) {
     vec3 forward = turnedVector(joints.b.rotation, own.axis);
     SUPPLE_PRECISE vec3 way = own.target - joints.a.position;
-    if (step == 0u) weight = own.weight * aheadWeight(forward, direction(way));
+    SUPPLE_PRECISE float ahead = own.weight * aheadWeight(forward, direction(way));
+    if (step == 0u) weight = ahead;
     return aimedTurn(joints.a.position, joints.b.position, forward, own.target, vec3(0.0f, 1.0f, 0.0f));
 }
 
