@@ -15,6 +15,7 @@ skinning::PoseNeeds poseNeeds(const StateRoom& room, const cage::Character& char
     needs.steps = room.hasSteps();
     needs.springs = room.springs;
     needs.drivers = hasMorphs && !character.drivers.empty();
+    needs.morphs = hasMorphs;
     needs.clips = skinning::clipKinds(character);
     return needs;
 }

@@ -13,6 +13,7 @@
 #include "shaders/shared/specialization.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace supple::skinning {
 namespace {
@@ -61,15 +62,17 @@ Result<PosePipelines> PoseKernels::make(SkinningMode mode, const PoseNeeds& need
                                      {kKeyedClipsConstant, constantOf(all || needs.clips.keyed)},
                                      {kPackedClipsConstant, constantOf(all || needs.clips.packed)},
                                      {kCoarseTwinsConstant, constantOf(all || needs.clips.coarse)}};
+    gpu::Constant ofLocals[std::size(ofClips) + 1];
+    *std::copy(std::begin(ofClips), std::end(ofClips), ofLocals) = {kMorphsConstant, constantOf(all || needs.morphs)};
     const gpu::Constant ofPalette[] = {listed, rotations, {kWorkgroupRowsConstant, rows}};
     const std::span ofLists(&listed, 1), ofMix(&rotations, 1);
     gpu::Pipelines::Batch batch(*pipelines_);
     const auto get = [&](const gpu::Spirv& spirv, std::span<const gpu::Constant> constants, const char* name) {
         return batch.get(layout_, spirv, constants, name);
     };
-    made.locals_[0] = get(pose_locals_comp, ofClips, "supple pose, local matrices");
-    made.locals_[1] = get(pose_locals_comp_ADDS, ofClips, "supple pose, local matrices, additive");
-    made.locals_[2] = get(pose_locals_comp_ADDS_TRANSITIONS, ofClips, "supple pose, local matrices, transitions");
+    made.locals_[0] = get(pose_locals_comp, ofLocals, "supple pose, local matrices");
+    made.locals_[1] = get(pose_locals_comp_ADDS, ofLocals, "supple pose, local matrices, additive");
+    made.locals_[2] = get(pose_locals_comp_ADDS_TRANSITIONS, ofLocals, "supple pose, local matrices, transitions");
     made.roots_ = get(pose_roots_comp, ofClips, "supple pose, roots");
     made.modifiers_ = get(pose_modify_comp, ofLists, "supple pose, modifiers");
     made.palette_ = get(pose_palette_comp, ofPalette,

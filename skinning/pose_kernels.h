@@ -17,6 +17,7 @@ struct PoseNeeds {
     bool steps = false;   ///< springs or soft vertices: each of their steps is posed
     bool springs = false; ///< some joints swing
     bool drivers = false; ///< morph weights follow from joints
+    bool morphs = false;  ///< poses have morph weights
     ClipKinds clips;
 };
 

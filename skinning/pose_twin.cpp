@@ -63,7 +63,8 @@ struct ModifyCode : PoseLoads {
     vec4* held = nullptr;
 
     [[nodiscard]] Transform nodeLocal(uint node) const { return locals[node]; }
-    void keepLocal(uint node, const Transform& t) const { locals[node] = t; }
+    void keepTranslation(uint node, const vec3& translation) const { locals[node].translation = translation; }
+    void keepRotation(uint node, const vec4& rotation) const { locals[node].rotation = rotation; }
     [[nodiscard]] Affine placement() const { return place; }
     [[nodiscard]] vec4 heldAt(uint foot) const { return held[foot]; }
     void keepHeld(uint foot, const vec4& own) const { held[foot] = own; }

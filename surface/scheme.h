@@ -169,6 +169,7 @@ struct Tables {
     /// Smooth texture coordinates are quads or triangles of leaves, whatever the classes of patches.
     bool uvLeaves = false;
     bool faceUvs = false;    ///< corners have coordinates in the trim tile of their face (cage::Cage::cornerFaceUvs)
+    bool colors = false;     ///< some corner has a color that is not white
     bool mapFrames = false;  ///< corners have the frame of their material's normal map (cage::MapFrame)
     uint32_t attributes = 0; ///< first element of the corner attributes, which come last
     bool attributeHalves = false; ///< a word holds two attribute numbers

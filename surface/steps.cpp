@@ -305,7 +305,7 @@ uint32_t tangentsConstant(const ProgramBuilder& builder, uint32_t format) {
 
 uint32_t outputsOf(const ProgramBuilder& builder) {
     return (builder.tables.attributeOutputs() & builder.options.attributeOutputs) |
-           (builder.tables.mapFrames ? kOutputMapFrames : 0);
+           (builder.tables.mapFrames ? kOutputMapFrames : 0) | (builder.tables.colors ? kOutputColors : 0);
 }
 
 gpu::Kernel ProgramBuilder::kernel(SetKind sets, Kernel which, std::initializer_list<gpu::Constant> constants,

@@ -27,7 +27,7 @@ bool areOfOneMesh(const Tables& tables, const Tables& others) {
         return own.patchClass == other.patchClass && own.section.count == other.section.count;
     };
     return tables.isolationSteps == others.isolationSteps && tables.poolStride == others.poolStride &&
-           tables.attributeOutputs() == others.attributeOutputs() &&
+           tables.attributeOutputs() == others.attributeOutputs() && tables.colors == others.colors &&
            std::equal(tables.ranges.begin(), tables.ranges.end(), others.ranges.begin(), others.ranges.end(), isSame);
 }
 

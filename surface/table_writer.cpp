@@ -145,6 +145,8 @@ CornerWords cornerWords(const cage::Cage& cage, uint32_t corner) {
 }
 
 uint32_t noteAttributes(const cage::Cage& cage, Tables& tables) {
+    tables.colors = std::any_of(cage.cornerColors.begin(), cage.cornerColors.end(),
+                                [](const glm::vec4& color) { return color != glm::vec4(1.0f); });
     tables.uvSets = cage.cornerUvs1.empty() ? 1 : 2;
     tables.faceUvs = !cage.cornerFaceUvs.empty();
     return tables.uvSets == 2 || tables.faceUvs ? 8 : 4;

@@ -119,7 +119,7 @@ template <class A, Is<Tables> T>
 void fields(A& a, T& tables) {
     a(tables.words, tables.cageStride, tables.poolStride, tables.meshVertices, tables.tangents, tables.faces,
       tables.inner, tables.frames, tables.ring, tables.edgeClasses, tables.coordinates, tables.uvSets, tables.uvMode,
-      tables.uvLeaves, tables.faceUvs, tables.mapFrames, tables.attributes, tables.attributeHalves,
+      tables.uvLeaves, tables.faceUvs, tables.colors, tables.mapFrames, tables.attributes, tables.attributeHalves,
       tables.isolationSteps, tables.rate, tables.fragments, tables.triangles, tables.cornerNormals,
       tables.constructions, tables.ranges, tables.patches, tables.drawRanges, tables.lod, tables.mesh, tables.notes);
 }

@@ -101,18 +101,18 @@ uint listConstructed(uvec4 window, uvec2 run, uint leftOut, uvec4 counts) {
 }
 
 void storeHeader(uint at, uvec4 counts, uint listed) {
-    argumentWords.at[at] = counts.x + counts.y;
-    argumentWords.at[at + 1u] = counts.x;
-    argumentWords.at[at + 2u] = listed;
-    argumentWords.at[at + 3u] = counts.z;
-    argumentWords.at[at + 4u] = counts.w;
+    [[dont_unroll]] for (uint k = 0u; k < 5u; ++k) { // see storeDispatch()
+        uint word = k == 0u ? counts.x + counts.y : k == 1u ? counts.x : k == 2u ? listed : k == 3u ? counts.z : counts.w;
+        argumentWords.at[at + k] = word;
+    }
 }
 
-// Lanes share the arguments of a window.
-void storeArguments(uint which, uint instances, uint window) {
+// Lanes share the arguments of a window, of which so many instances are drawn and constructed.
+void storeArguments(uint drawn, uint constructed, uint window) {
     for (uint i = gl_LocalInvocationID.x; i < push.argumentCount; i += gl_WorkGroupSize.x) {
         uvec4 argument = tableElements.at[push.windowCount + i];
-        if (argument.z == which)
+        uint instances = argument.z == kCountWindow ? drawn : constructed;
+        if (argument.z == kCountWindow || argument.z == kCountConstructed)
             storeDispatch(argument.w + push.argumentStride * window, argument.x * instances, argument.y);
     }
 }
@@ -122,7 +122,10 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     uvec4 total = uvec4(0u);
     uint listed = 0u, leftOut = 0u;
-    if (push.room != kRoomForAll) leftOut = max(threshold(0u, push.room), threshold(kSizeRanks, push.poolRoom));
+    if (push.room != kRoomForAll) {
+        [[dont_unroll]] for (uint k = 0u; k < 2u; ++k)
+            leftOut = max(leftOut, threshold(k * kSizeRanks, k == 0u ? push.room : push.poolRoom));
+    }
     for (uint w = 0u; w < push.windowCount; ++w) {
         uvec4 window = tableElements.at[w];
         uvec2 run = runOf(window);
@@ -170,8 +173,7 @@ void main() {
             storeHeader(kListHeaderWords * (w + 1u), counts, window.y);
             argumentWords.at[kListHeaderWords * (w + 1u) + kConstructedWord] = constructed;
         }
-        storeArguments(kCountWindow, counts.x + counts.y, w);
-        storeArguments(kCountConstructed, constructed, w);
+        storeArguments(counts.x + counts.y, constructed, w);
         total += counts;
         listed += window.y;
     }

@@ -13,12 +13,15 @@ layout(set = 0, binding = kBoundsStateTexelBinding) uniform usamplerBuffer state
 uvec2 state(uint slot) { return texelFetch(stateTexels, int(slot)).xy; }
 #endif
 
+uint quotientUp(uint a, uint b) {
+    uint q = a / b;
+    return q * b != a ? q + 1u : q;
+}
 void storeDispatch(uint at, uint elements, uint perGroup) {
-    uint groups = elements / perGroup + (elements % perGroup != 0u ? 1u : 0u);
-    uint rows = max(groups / push.maxGroups + (groups % push.maxGroups != 0u ? 1u : 0u), 1u);
-    argumentWords.at[at] = groups / rows + (groups % rows != 0u ? 1u : 0u);
-    argumentWords.at[at + 1u] = rows;
-    argumentWords.at[at + 2u] = 1u;
+    uint groups = quotientUp(elements, perGroup), rows = max(quotientUp(groups, push.maxGroups), 1u);
+    uint columns = quotientUp(groups, rows);
+    // A loop, so that there is one store: CPU devices compile each as a loop over the lanes.
+    [[dont_unroll]] for (uint k = 0u; k < 3u; ++k) argumentWords.at[at + k] = k == 0u ? columns : k == 1u ? rows : 1u;
 }
 
 // The lane's run of a window's entries.

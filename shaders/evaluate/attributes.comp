@@ -37,6 +37,7 @@ layout(constant_id = kSectorsConstant) const bool kSectors = false;
 const bool kDirections = (kOutputs & kOutputDirections) != 0u;
 // Corners have the frames of normal maps. Otherwise these are the first texture coordinates as they are.
 const bool kMapFrames = (kOutputs & kOutputMapFrames) != 0u;
+const bool kColors = (kOutputs & kOutputColors) != 0u; // else all are white
 const bool kMoreUvs = (kOutputs & (kOutputUvs1 | kOutputFaceUvs | kOutputMapFrames)) != 0u;
 
 BUFFER(writeonly, Attributes, kAttributeBinding, std430, uvec4, attributes)
@@ -119,7 +120,8 @@ vec2 turned(Corners c, vec2 uv) {
 void loadCorner(inout Corners c, uint k, uint element) {
     uvec4 corner = tableElement(element);
     c.uv[k] = uintBitsToFloat(corner.xy);
-    c.color[k] = vec4(corner.z & 0xFFFFu, corner.z >> 16u, corner.w & 0xFFFFu, corner.w >> 16u);
+    c.color[k] = vec4(0.0);
+    if (kColors) c.color[k] = vec4(corner.z & 0xFFFFu, corner.z >> 16u, corner.w & 0xFFFFu, corner.w >> 16u);
     c.more[k] = kMoreUvs && haveMore() ? uintBitsToFloat(tableElement(element + 1u)) : vec4(0.0);
     if (kDirections) c.map[k] = c.uv[k];
     if (kMapFrames) {
@@ -176,8 +178,12 @@ Sample blended(float a, Sample x, float b, Sample y) {
 Sample atCorner(Corners c, uint k) { return Sample(c.uv[k], c.color[k], c.more[k]); }
 
 void store(uint vertex, Sample s) {
-    uvec4 color = uvec4(ivec4(s.color + 0.5));
-    attributes.at[vertex] = uvec4(floatBitsToUint(s.uv), color.xz | color.yw << 16u);
+    uvec2 color = uvec2(0xFFFFFFFFu);
+    if (kColors) {
+        uvec4 channels = uvec4(ivec4(s.color + 0.5));
+        color = channels.xz | channels.yw << 16u;
+    }
+    attributes.at[vertex] = uvec4(floatBitsToUint(s.uv), color);
     if ((kOutputs & kOutputUvs1) != 0u) uvs1.at[vertex] = s.more.xy;
     if ((kOutputs & kOutputFaceUvs) != 0u) faceUvs.at[vertex] = s.more.zw;
 }

@@ -27,8 +27,18 @@ uint padded(uint count, uint samples) {
 }
 // Wide mapping: workgroups that evaluate so many records of a run with this word.
 uint groupsOf(uint word, uint c, uint whole) {
+    if (!kWide) return 0u;
     uint each = recordsOfGroup(gl_WorkGroupSize.x, runHasLines(word), runForm(word), capacityOf(c));
     return (whole + each - 1u) / each;
+}
+
+// The first `count` of some words; those behind the fourth are 0. CPU devices compile a store as a loop over the lanes, and every
+// place in the code by itself: so words take turns in one place.
+void storeWords(uint at, uint count, uvec4 words) {
+    [[dont_unroll]] for (uint k = 0u; k < count; ++k) {
+        uint word = k == 0u ? words.x : k == 1u ? words.y : k == 2u ? words.z : k == 3u ? words.w : 0u;
+        lodWords.at[at + k] = word;
+    }
 }
 
 struct Place {
@@ -50,6 +60,7 @@ Place sizeOf(uint first, uint end) {
 // Workgroups of a dispatch that stand before the run.
 uint groupsBefore(uint run) {
     uint dispatch = dispatchOf(run), groups = 0u;
+    if (!kWide) return 0u;
     for (; run > 0u && dispatchOf(run - 1u) == dispatch; --run) {
         uint word = runWord(run - 1u);
         [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c) {
@@ -67,10 +78,7 @@ void placeRuns(uint first, uint end, inout Place at, uint room) {
         uint word = runWord(run), bucket = bucketWord(run, 0u);
         [[dont_unroll]] for (uint c = 0u; c < kCapacityCount; ++c, bucket += 4u) {
             uint samples = formSamples(runForm(word), capacityOf(c)), draw = drawWord(run, c) + kLodDrawCount, count = lodWords.at[draw];
-            lodWords.at[bucket] = at.record;
-            lodWords.at[bucket + 1u] = at.vertex;
-            lodWords.at[bucket + 2u] = 0u;
-            lodWords.at[bucket + 3u] = group;
+            storeWords(bucket, 4u, uvec4(at.record, at.vertex, 0u, group));
             uint whole = padded(count, samples);
             at.counted += count;
             if (whole > (room - at.vertex) / samples) { // only where even levels of 1 are too many
@@ -92,11 +100,8 @@ void writeDraw(uint run, uint c) {
     uint form = runForm(runWord(run)), samples = formSamples(form, capacityOf(c)), draw = drawWord(run, c), bucket = bucketWord(run, c);
     uint count = lodWords.at[draw + kLodDrawCount], whole = padded(count, samples);
     uint record = lodWords.at[bucket], vertex = lodWords.at[bucket + 1u], grid = kLodGrids + 2u * (form * kCapacityCount + c);
-    lodWords.at[draw] = lodWords.at[grid + 1u];
-    lodWords.at[draw + kLodDrawCount] = whole / patchesPerDraw(samples);
-    lodWords.at[draw + 2u] = lodWords.at[grid];
-    lodWords.at[draw + 3u] = vertex;
-    lodWords.at[draw + 4u] = 0u;
+    uvec4 words = uvec4(lodWords.at[grid + 1u], whole / patchesPerDraw(samples), lodWords.at[grid], vertex);
+    storeWords(draw, 5u, words);
     for (uint i = count; i < whole; ++i) { // empty records: evaluation makes points of them
         uint to = (SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * (record + i)) / 4u;
         lodTargets.at[to] = uvec4(kEmptyRecord, 0u, vertex + i * samples, c);
@@ -113,14 +118,11 @@ void writeDispatch(uint run, uint dispatch) {
                             : (recordCount + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint rows = max((groupCount + push.maxGroups - 1u) / push.maxGroups, 1u);
     uint at = SUPPLE_LOD_DISPATCHES(push.runs) + kLodDispatchWords * dispatch;
-    lodWords.at[at] = groupCount > 0u ? (groupCount + rows - 1u) / rows : 0u;
-    lodWords.at[at + 1u] = rows;
-    lodWords.at[at + 2u] = 1u;
-    lodWords.at[at + 3u] = firstRecord;
-    lodWords.at[at + 4u] = recordCount;
-    lodWords.at[at + 5u] = (first - SUPPLE_LOD_BUCKETS(push.runs)) / 4u;
-    lodWords.at[at + 6u] = (end - run) * kCapacityCount;
-    lodWords.at[at + 7u] = groupCount;
+    uvec4 words = uvec4((groupCount + rows - 1u) / rows, rows, 1u, firstRecord);
+    [[dont_unroll]] for (uint part = 0u; part < 2u; ++part) {
+        storeWords(at + 4u * part, 4u, words);
+        words = uvec4(recordCount, (first - SUPPLE_LOD_BUCKETS(push.runs)) / 4u, (end - run) * kCapacityCount, groupCount);
+    }
 }
 
 void main() {

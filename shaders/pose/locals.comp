@@ -2,8 +2,10 @@
 // every four morph weights, which go straight into the pose. What root motion changes of it is left to roots.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/pose/tables.glsl"
 #include "shaders/pose/affine.h"
+#include "shaders/pose/rows.glsl"
 #include "shaders/pose/posed.glsl"
 #include "shaders/pose/time.h"
 
@@ -20,6 +22,7 @@ const bool kTransitions = true;
 const bool kTransitions = false;
 #endif
 const bool kRoots = false;
+layout(constant_id = kMorphsConstant) const bool kMorphs = true;
 #include "shaders/pose/layers.h"
 #include "shaders/pose/transition.h"
 #include "shaders/pose/local.glsl"
@@ -49,7 +52,7 @@ void main() {
         precise Affine place = identity();
         if (isPlaced()) place = transformOf(first);
         storePlace(locals + kAffineElements * item, place);
-    } else {
+    } else if (kMorphs) {
         uint quad = item - push.nodeCount - 1u;
         precise vec4 weights = shownWeights(first, quad, morphWeights(first, quad));
         storePosed(push.morphWeights + quad, weights);

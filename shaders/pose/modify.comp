@@ -2,34 +2,31 @@
 // One invocation an instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/pose/tables.glsl"
 #include "shaders/pose/limbs.h"
+#include "shaders/pose/rows.glsl"
 #include "shaders/pose/time.h"
 
 BUFFER(, Scratch, kScratchPoseBinding, std430, vec4, scratch)
 
 uint locals = 0u; // of the instance
-Transform nodeLocal(uint node) {
-    uint i = locals + kAffineElements * node;
-    Transform t;
-    t.translation = scratch.at[i].xyz;
-    t.rotation = scratch.at[i + 1u];
-    t.scale = scratch.at[i + 2u].xyz;
-    return t;
+Affine scratchRows(uint i) {
+    Affine m = identity();
+    ROWS m = withRow(m, k, scratch.at[i + k]);
+    return m;
 }
+Transform nodeLocal(uint node) { return transformAt(scratchRows(locals + kAffineElements * node)); }
 bool listed = false;
-void keepLocal(uint node, Transform t) {
-    precise Transform local = t;
-    uint i = locals + kAffineElements * node;
-    if (listed) {
-        scratch.at[i] = vec4(local.translation, 0.0);
-        scratch.at[i + 1u] = local.rotation;
-    }
+void keepTranslation(uint node, vec3 translation) {
+    precise vec3 local = translation;
+    if (listed) scratch.at[locals + kAffineElements * node] = vec4(local, 0.0);
 }
-Affine placement() {
-    uint i = locals + kAffineElements * push.nodeCount;
-    return rowsOf(scratch.at[i], scratch.at[i + 1u], scratch.at[i + 2u]);
+void keepRotation(uint node, vec4 rotation) {
+    precise vec4 local = rotation;
+    if (listed) scratch.at[locals + kAffineElements * node + 1u] = local;
 }
+Affine placement() { return scratchRows(locals + kAffineElements * push.nodeCount); }
 vec4 heldAt(uint foot) { return scratch.at[locals + kAffineElements * (push.nodeCount + 1u) + foot]; }
 void keepHeld(uint foot, vec4 held) {
     precise vec4 own = held;

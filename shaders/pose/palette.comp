@@ -2,8 +2,10 @@
 // workgroup per instance, one depth of the hierarchy at a time, with the matrices in workgroup memory if they fit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/pose/tables.glsl"
 #include "shaders/pose/affine.h"
+#include "shaders/pose/rows.glsl"
 #include "shaders/pose/posed.glsl"
 #include "shaders/pose/nodes.h"
 
@@ -38,7 +40,8 @@ Affine globalAt(uint matrices, uint node) {
         m = Affine(localRows[i], localRows[i + 1u], localRows[i + 2u]);
     } else {
         i += matrices;
-        m = Affine(scratch.at[i], scratch.at[i + 1u], scratch.at[i + 2u]);
+        m = identity();
+        ROWS m = withRow(m, k, scratch.at[i + k]);
     }
     return m;
 }
@@ -51,9 +54,7 @@ void keepGlobal(uint matrices, uint node, Affine global) {
         localRows[i + 2u] = m.z;
     } else {
         i += matrices;
-        scratch.at[i] = m.x;
-        scratch.at[i + 1u] = m.y;
-        scratch.at[i + 2u] = m.z;
+        ROWS scratch.at[i + k] = rowAt(m, k);
     }
 }
 

@@ -1,4 +1,4 @@
-// Where poses go: what is shown to the deform pass, an end to mix.comp, a step to what jiggles.
+// Where poses go: what is shown to the deform pass, an end to mix.comp, a step to what jiggles. Needs rows.glsl.
 
 BUFFER(writeonly, Posed, kPosedBinding, std430, vec4, posed)
 BUFFER(writeonly, PosedEnds, kEndsBinding, std430, vec4, posedEnds)
@@ -14,7 +14,5 @@ void storePosed(uint i, vec4 value) {
 }
 void storePosed(uint i, Affine m) {
     precise Affine rows = m;
-    storePosed(i, rows.x);
-    storePosed(i + 1u, rows.y);
-    storePosed(i + 2u, rows.z);
+    ROWS storePosed(i + k, rowAt(rows, k));
 }

@@ -4,8 +4,10 @@
 // through its code.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/pose/tables.glsl"
 #include "shaders/pose/affine.h"
+#include "shaders/pose/rows.glsl"
 #include "shaders/pose/time.h"
 
 const bool kAdds = true, kRoots = true, kTransitions = true;

@@ -3,8 +3,10 @@
 // level, then a collider, then a chain.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/pose/tables.glsl"
 #include "shaders/pose/colliders.h"
+#include "shaders/pose/rows.glsl"
 
 BUFFER(coherent, Scratch, kScratchPoseBinding, std430, vec4, scratch)
 BUFFER(coherent, Springs, kSpringBinding, std430, vec4, springs)
@@ -13,15 +15,12 @@ bool listed = false; // lanes beyond the instances must not store: others change
 uint locals = 0u;    // of the step, or of what is shown
 uint tails = 0u;     // of the instance
 
-Affine scratchRows(uint i) { return rowsOf(scratch.at[i], scratch.at[i + 1u], scratch.at[i + 2u]); }
-Transform nodeLocal(uint node) {
-    uint i = locals + kAffineElements * node;
-    Transform t;
-    t.translation = scratch.at[i].xyz;
-    t.rotation = scratch.at[i + 1u];
-    t.scale = scratch.at[i + 2u].xyz;
-    return t;
+Affine scratchRows(uint i) {
+    Affine m = identity();
+    ROWS m = withRow(m, k, scratch.at[i + k]);
+    return m;
 }
+Transform nodeLocal(uint node) { return transformAt(scratchRows(locals + kAffineElements * node)); }
 void keepLocal(uint node, Transform t) {
     precise Transform local = t;
     if (listed) scratch.at[locals + kAffineElements * node + 1u] = local.rotation;
@@ -31,9 +30,7 @@ void keepGlobal(uint node, Affine m) {
     precise Affine global = m;
     uint i = locals + kAffineElements * node;
     if (listed) {
-        scratch.at[i] = global.x;
-        scratch.at[i + 1u] = global.y;
-        scratch.at[i + 2u] = global.z;
+        ROWS scratch.at[i + k] = rowAt(global, k);
     }
 }
 uint colliderPlace(uint collider) {

@@ -28,7 +28,7 @@ SUPPLE_SHARED_CONST kSourceConstant = 9u;           // kFromScratch, kFromNet or
 SUPPLE_SHARED_CONST kWorkConstant = 10u;            // kInBulk or kOneByOne
 SUPPLE_SHARED_CONST kWorkgroupPointsConstant = 11u; // points that workgroup memory has room for
 
-// Skinning.
+// Skinning and poses.
 SUPPLE_SHARED_CONST kMorphsConstant = 12u;          // bool: the cage has morph targets
 SUPPLE_SHARED_CONST kSkinningConstant = 13u;        // kLinearSkinning, kDualQuaternionSkinning or kCenterSkinning
 SUPPLE_SHARED_CONST kWorkgroupRowsConstant = 14u;   // matrix rows that workgroup memory has room for

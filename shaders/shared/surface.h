@@ -114,6 +114,7 @@ SUPPLE_SHARED_CONST kOutputUvs1 = 1u;
 SUPPLE_SHARED_CONST kOutputFaceUvs = 2u;
 SUPPLE_SHARED_CONST kOutputDirections = 4u;
 SUPPLE_SHARED_CONST kOutputMapFrames = 8u; // no output: with directions, corners have the frames of normal maps
+SUPPLE_SHARED_CONST kOutputColors = 16u;   // no output: some corner has a color, else all samples are white
 
 // Tangents. A direction word says where the tangent of a sample points, in the two derivatives of its patch (docs/tangents.md): a
 // in snorm16, b in snorm15, then 1 where the sign of the frame is negative. No pose changes it. A tangent word is what a host
