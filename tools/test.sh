@@ -25,7 +25,7 @@ tools/basisu.sh || echo "Textures in KTX2 are left out: Basis Universal could no
 # Without it the tests of ray queries say that they were left out.
 tools/lavapipe.sh || echo "Ray queries are left out: lavapipe of Debian's backports could not be fetched" >&2
 # Without these the test mingw builds the library alone, and windows_bakes says that it was left out.
-tools/windows_libraries.sh || echo "supple.exe is left out: its libraries could not be built" >&2
+tools/windows_libraries.sh vulkan zlib png jpeg meshopt || echo "supple.exe is left out: its libraries could not be built" >&2
 # demo.sh may have configured without the tests.
 cmake --preset release -DSUPPLE_BUILD_TESTS=ON
 cmake --build --preset release -j "$jobs"

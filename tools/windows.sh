@@ -7,5 +7,6 @@ cd "$(dirname "$0")/.."
 
 install_missing "${supple_packages[@]}" "${supple_windows_packages[@]}"
 tools/windows_libraries.sh
+tools/basisu.sh || echo "Textures in KTX2 are left out: Basis Universal could not be fetched" >&2
 cmake --preset windows "$@"
 cmake --build --preset windows -j "$(nproc)"

@@ -2,14 +2,16 @@
 # Builds the libraries that the supple command links, for Windows, static, to build/windows-libraries: from the sources of this
 # Debian, by MinGW-w64. The preset `windows` finds them there. Nothing is installed.
 # Usage: tools/windows_libraries.sh [LIBRARY...]
-# Without arguments all: vulkan zlib png jpeg meshopt. The last can be left out, with SUPPLE_WITH_MESHOPT=OFF.
+# Without arguments all: vulkan zlib png jpeg, without which there is no command, and meshopt draco webp zstd glfw imgui. What the
+# command lacks without one of these stands in docs/windows.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 source=$PWD
 prefix=${SUPPLE_WINDOWS_LIBRARIES:-$PWD/build/windows-libraries}
 triple=x86_64-w64-mingw32
-[ $# -gt 0 ] || set -- vulkan zlib png jpeg meshopt
+all=(vulkan zlib png jpeg meshopt draco webp zstd glfw imgui)
+[ $# -gt 0 ] || set -- "${all[@]}"
 for tool in apt-get dpkg-source cmake ninja $triple-gcc-posix $triple-g++-posix; do
     command -v "$tool" >/dev/null || { echo "$tool is missing" >&2; exit 3; }
 done
@@ -99,8 +101,43 @@ build_meshopt() {
     build_target meshoptimizer install
 }
 
+build_draco() {
+    build_target draco install
+}
+
+# Without the programs that come with it. Animated pictures need its muxer.
+build_webp() {
+    local part off=()
+    for part in ANIM_UTILS CWEBP DWEBP GIF2WEBP IMG2WEBP VWEBP WEBPINFO WEBPMUX EXTRAS; do
+        off+=("-DWEBP_BUILD_$part=OFF")
+    done
+    build_target libwebp install -DWEBP_BUILD_LIBWEBPMUX=ON "${off[@]}"
+}
+
+# What Basis Universal unpacks textures with: tools/basisu.sh fetches the rest.
+build_zstd() {
+    unpack libzstd
+    (cd "$work/libzstd/lib" && $triple-gcc-posix -O2 -DZSTD_DISABLE_ASM=1 -c common/*.c decompress/*.c &&
+        $triple-ar rcs "$prefix/lib/libzstd.a" ./*.o)
+    cp "$work"/libzstd/lib/zstd*.h "$prefix/include"
+}
+
+build_glfw() {
+    build_target glfw3 install -DGLFW_BUILD_EXAMPLES=OFF -DGLFW_BUILD_TESTS=OFF -DGLFW_BUILD_DOCS=OFF
+}
+
+# After glfw and vulkan. It has no CMakeLists.txt.
+build_imgui() {
+    unpack imgui
+    mkdir -p "$prefix/include/imgui/backends"
+    cp "$work"/imgui/*.h "$prefix/include/imgui"
+    cp "$work"/imgui/backends/imgui_impl_{glfw,vulkan}.h "$prefix/include/imgui/backends"
+    (cd "$work/imgui" && $triple-g++-posix -O2 -I. -I"$prefix/include" -c imgui*.cpp backends/imgui_impl_{glfw,vulkan}.cpp &&
+        $triple-ar rcs "$prefix/lib/libimgui.a" ./*.o)
+}
+
 for library in "$@"; do
-    declare -F "build_$library" >/dev/null || { echo "$library is none of: vulkan zlib png jpeg meshopt" >&2; exit 2; }
+    declare -F "build_$library" >/dev/null || { echo "$library is none of: ${all[*]}" >&2; exit 2; }
     [ ! -e "$prefix/built/$library" ] || continue
     "build_$library"
     touch "$prefix/built/$library"

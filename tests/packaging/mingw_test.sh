@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Cross-compiles the library for Windows, static and DLL, and links hosts in C and C++ with either, which find the package. The
-# supple command and the samples minimal and c_host come along where tools/windows_libraries.sh has built what they link.
-# windows_bakes.sh runs all of them.
+# supple command and the samples minimal and c_host come along where tools/windows_libraries.sh has built what they link, and so do
+# decoders and the window. windows_bakes.sh runs all but the window.
 #   mingw_test.sh BUILD SOURCE WORK
 # Its shaders are those of BUILD.
 set -euo pipefail
@@ -31,9 +31,12 @@ if [ -e "$libraries/built/jpeg" ]; then
 else
     echo "the command is left out: tools/windows_libraries.sh was not run"
 fi
+# whether LIBRARY: whether windows_libraries.sh has built it.
+whether() { if [ -e "$libraries/built/$1" ]; then echo ON; else echo OFF; fi; }
 # Without any optimization the objects are seven times as large, and linking COFF takes minutes.
 quietly cmake -S "$source" -B "$work/build" -G Ninja --toolchain "$source/cmake/mingw-w64.cmake" "${launcher[@]}" \
-    -DSUPPLE_WITH_MESHOPT=OFF -DSUPPLE_WITH_DRACO=OFF -DSUPPLE_BUILD_BOTH=ON -DSUPPLE_BUILD_TOOLS=$tools -DSUPPLE_BUILD_TESTS=OFF \
+    -DSUPPLE_WITH_MESHOPT="$(whether meshopt)" -DSUPPLE_WITH_DRACO="$(whether draco)" \
+    -DSUPPLE_BUILD_BOTH=ON -DSUPPLE_BUILD_TOOLS=$tools -DSUPPLE_BUILD_TESTS=OFF \
     -DSUPPLE_WINDOWS_LIBRARIES="$libraries" -DCMAKE_EXE_LINKER_FLAGS=-static -DCMAKE_SHARED_LINKER_FLAGS=-static \
     -DSUPPLE_COMPILED_SHADERS="$build/generated" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
     -DSUPPLE_UNITY_BATCH=30
@@ -54,7 +57,8 @@ for shared in OFF ON; do
     at=$work/package_$shared
     rm -rf "$at"
     quietly cmake -S "$source/tests/packaging/consumer" -B "$at" -G Ninja --toolchain "$source/cmake/mingw-w64.cmake" \
-        -DHOW=package "-DLANGUAGES=C;CXX" -DCMAKE_PREFIX_PATH="$prefix" -Dsupple_SHARED=$shared -DCMAKE_EXE_LINKER_FLAGS=-static
+        -DHOW=package "-DLANGUAGES=C;CXX" -DCMAKE_PREFIX_PATH="$prefix" -Dsupple_SHARED=$shared \
+        -DSUPPLE_WINDOWS_LIBRARIES="$libraries" -DCMAKE_EXE_LINKER_FLAGS=-static
     quietly cmake --build "$at"
 done
 cp "$prefix/bin/libsupple.dll" "$work/package_ON"

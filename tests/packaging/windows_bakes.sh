@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the Windows build under wine and compares it with the native one: the samples, and bakes of six characters with four schemes
-# in both mappings, whose files and hashes must have the same bytes.
+# Runs the Windows build under wine and compares it with the native one: the samples, bakes of six characters with four schemes in
+# both mappings, and of compressed files where it has the decoders. Files and hashes must have the same bytes.
 #   windows_bakes.sh NATIVE WINDOWS SOURCE WORK
 # NATIVE is a supple command; WINDOWS is what mingw_test.sh has left. Wine's Vulkan needs a display: with_display.sh.
 set -euo pipefail
@@ -28,26 +28,36 @@ for program in package_{OFF,ON}/consumer_{c,cpp} build/samples/minimal/supple_mi
 done
 echo "${SECONDS}s  hosts of the static library and of the DLL, minimal and c_host run"
 
-characters=(samples/assets/{helmet,pip,pip_quads,wren}.glb tests/data/drivers/arm.glb tests/data/jiggle/belly.glb)
-schemes=(pm catmull-clark loop fragments)
+# compare FILE SCHEME MAPPING: bakes FILE here and under wine.
+compare() {
+    local arguments=(bake "$1" --scheme "$2" --rate 2 --mapping "$3" --hash -o)
+    "$native" "${arguments[@]}" "native 字.glb" >native.txt 2>&1 &
+    "$wine" "$windows/build/bin/supple.exe" "${arguments[@]}" "windows 字.glb" >windows.txt 2>&1 || true
+    wait $! || true
+    grep -q '[0-9a-f]\{16\}' native.txt || { cat native.txt; fail "native: ${arguments[*]}"; }
+    cmp native.txt windows.txt || { diff native.txt windows.txt || true; fail "what is printed differs: ${arguments[*]}"; }
+    cmp "native 字.glb" "windows 字.glb" || fail "files differ: ${arguments[*]}"
+    rm "native 字.glb" "windows 字.glb"
+    same=$((same + 1))
+}
+# copied FILE: a copy whose name no code page of Windows has as a whole.
+copied() {
+    input="Hélène 字 $(basename "$1")"
+    cp "$source/$1" "$input"
+}
 same=0
-for file in "${characters[@]}"; do
-    # A name that no code page of Windows has as a whole.
-    input="Hélène 字 $(basename "$file")"
-    cp "$source/$file" "$input"
-    for scheme in "${schemes[@]}"; do
+for file in samples/assets/{helmet,pip,pip_quads,wren}.glb tests/data/drivers/arm.glb tests/data/jiggle/belly.glb; do
+    copied "$file"
+    for scheme in pm catmull-clark loop fragments; do
         for mapping in narrow wide; do
-            arguments=(bake "$input" --scheme "$scheme" --rate 2 --mapping "$mapping" --hash -o)
-            "$native" "${arguments[@]}" "native 字.glb" >native.txt 2>&1 &
-            "$wine" "$windows/build/bin/supple.exe" "${arguments[@]}" "windows 字.glb" >windows.txt 2>&1 || true
-            wait $! || true
-            grep -q '[0-9a-f]\{16\}' native.txt || { cat native.txt; fail "native: ${arguments[*]}"; }
-            cmp native.txt windows.txt || { diff native.txt windows.txt || true; fail "what is printed differs: ${arguments[*]}"; }
-            cmp "native 字.glb" "windows 字.glb" || fail "files differ: ${arguments[*]}"
-            rm "native 字.glb" "windows 字.glb"
-            same=$((same + 1))
+            compare "$input" "$scheme" "$mapping"
         done
     done
+done
+for decoder in MESHOPT DRACO; do
+    grep -q "^SUPPLE_WITH_$decoder:BOOL=ON" "$windows/build/CMakeCache.txt" || { echo "left out: files that need $decoder"; continue; }
+    copied "tests/fuzz/corpus/gltf/${decoder,,}.glb"
+    compare "$input" catmull-clark wide
 done
 echo "${SECONDS}s  $same bakes have the bytes of the native ones"
 echo "passed"

@@ -118,6 +118,28 @@ TEST(SmallDevices, NameWhatNeedsMore) {
     }
 }
 
+/// Instances of Vulkan 1.1 may get no function of 1.2 from a device that has its feature.
+TEST(SmallDevices, NameTheFunctionThatIsNotGiven) {
+    for (const char* const hidden : {"vkGetBufferDeviceAddress", "vkCmdDispatchIndirect"}) {
+        wrappedVulkan().hiddenFunction = hidden;
+        const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
+        ASSERT_NE(device, nullptr);
+        LoggedContext context(*device, [](SuppleContextDesc& desc) {
+            desc.mapping = SUPPLE_MAPPING_WIDE;
+            desc.flags |= SUPPLE_CONTEXT_SHARED_DISPATCHES;
+        });
+        EXPECT_EQ(context.result(), SUPPLE_ERROR_UNSUPPORTED);
+        const std::vector<LogLine> lines = context.takeLines();
+        ASSERT_EQ(lines.size(), 1u);
+        EXPECT_NE(lines[0].text.find(std::string("the device gives no ") + hidden), std::string::npos) << lines[0].text;
+        LoggedContext other(*device, [](SuppleContextDesc& desc) {
+            desc.mapping = SUPPLE_MAPPING_WIDE;
+            desc.flags &= ~static_cast<uint32_t>(SUPPLE_CONTEXT_SHARED_DISPATCHES);
+        });
+        EXPECT_EQ(other.result() == SUPPLE_OK, std::string_view(hidden) == "vkGetBufferDeviceAddress");
+    }
+}
+
 TEST(SmallDevices, ReadStorageBuffersWhereTexelsAreFew) {
     ASSERT_NE(testDevice(), nullptr);
     const std::unique_ptr<host::Device> small = smallDevice();

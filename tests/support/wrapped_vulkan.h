@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 #include <vulkan/vulkan.h>
@@ -31,6 +32,7 @@ struct WrappedVulkan {
     VkResult queryFailure = VK_SUCCESS; ///< when not a success: of vkGetQueryPoolResults
     uint64_t ticksAPass = 0;            ///< when not 0: timestamps read are this far apart, one from the next
     uint64_t buffers = 0;
+    std::string_view hiddenFunction;    ///< of the device, which then does not have it
     const char* watchedName = nullptr;  ///< of buffers
     std::set<VkBuffer> watched;         ///< those that were given the name
     uint32_t apiVersion = 0;            ///< when not 0: what the device says. Below 1.2 nothing newer than 1.1 is there

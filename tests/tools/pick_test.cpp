@@ -98,7 +98,7 @@ TEST_F(Pick, SaysWhatIsWrong) {
     expectFailure(runOnDevice("pick '" + kPicked + "' --ray 0,0,0,0,0,0"), 1, "a direction without a length");
     expectFailure(runOnDevice("pick '" + kPicked + "' --at 1280,3"), 1, "--at 1280,3: the picture has 1280x960 pixels");
     for (const char* const flags : {"", "--ray 1,2,3", "--ray 1,2,3,4,5,6,", "--ray 0,0,0,nan,0,1", "--closest 1,2",
-                                    "--closest 1,2,3 --at 3,4"}) {
+                                    "--closest 1,2,3 --at 3,4", "--at 1,1 --size 20", "--at 1,1 --size 0x20"}) {
         EXPECT_EQ(run("pick '" + kPicked + "' " + flags).exitCode, 2) << flags;
     }
 }

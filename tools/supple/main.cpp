@@ -25,6 +25,7 @@ int run(const std::vector<std::string>& arguments) {
     using namespace supple::tools;
     CLI::App app{"Animated control cages to smooth surfaces on Vulkan compute.", "supple"};
     app.require_subcommand(1);
+    app.allow_windows_style_options(false); // "/hero.glb" is a path on Windows as well
     app.set_version_flag("--version", std::to_string(SUPPLE_VERSION_MAJOR) + "." +
                                           std::to_string(SUPPLE_VERSION_MINOR) + "." +
                                           std::to_string(SUPPLE_VERSION_PATCH));

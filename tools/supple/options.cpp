@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 
 namespace supple::tools {
@@ -163,6 +164,26 @@ void bindScheme(CLI::App& command, std::string& scheme, std::vector<host::PartSc
     bindRate(command, rate);
     bindSkinning(command, skinning);
     bindReading(command, reading);
+}
+
+Result<VkExtent2D> parseSize(const std::string& text) {
+    constexpr uint32_t kMaxSide = 16384;
+    VkExtent2D extent{};
+    int read = 0;
+    const int values = std::sscanf(text.c_str(), "%ux%u%n", &extent.width, &extent.height, &read);
+    const auto isSide = [](uint32_t side) { return side > 0 && side <= kMaxSide; };
+    if (values != 2 || static_cast<size_t>(read) != text.size() || !isSide(extent.width) || !isSide(extent.height)) {
+        return Error{ErrorCode::argument, text + " is not WxH in pixels"};
+    }
+    return extent;
+}
+
+void bindSize(CLI::App& command, const char* name, std::string& size, const char* description) {
+    const auto check = [](const std::string& text) {
+        const Result<VkExtent2D> extent = parseSize(text);
+        return extent ? std::string() : extent.error().message;
+    };
+    command.add_option(name, size, description)->check(CLI::Validator(check, "WxH"))->capture_default_str();
 }
 
 void bindSkinning(CLI::App& command, std::string& skinning) {

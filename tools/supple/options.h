@@ -53,6 +53,10 @@ void bindRecord(CLI::App& command, std::string& record);
 /// --strict.
 void bindReading(CLI::App& command, host::ReadOptions& reading);
 
+/// --size and --cell: "WxH" in pixels, each 1 to 16384. bindSize() checks it while the command line is read.
+[[nodiscard]] Result<VkExtent2D> parseSize(const std::string& text);
+void bindSize(CLI::App& command, const char* name, std::string& size, const char* description);
+
 /// --scheme, --part-scheme, --rate and how the surface is built.
 struct SurfaceFlags {
     std::string scheme = "auto";

@@ -251,7 +251,7 @@ void bindAim(CLI::App& command, PickOptions& options) {
     aim->add_option("--closest", options.closest, "The nearest point to a place")->check(numbers<3>("X,Y,Z"));
     aim->require_option(1);
     const HelpGroup heading(command, "Camera");
-    command.add_option("--size", options.size, "With --at: of the picture")->capture_default_str()->type_name("WxH");
+    bindSize(command, "--size", options.size, "With --at: of the picture");
     command.add_option("--yaw", options.yaw, "With --at: degrees; 0 looks at the front")
         ->check(CLI::Range(-360.0, 360.0))
         ->capture_default_str();

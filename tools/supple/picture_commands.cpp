@@ -11,20 +11,10 @@
 #include "tools/supple/views.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 namespace supple::tools {
 namespace {
-
-std::string size(const std::string& text) {
-    unsigned width = 0;
-    unsigned height = 0;
-    int read = 0;
-    const int values = std::sscanf(text.c_str(), "%ux%u%n", &width, &height, &read);
-    const bool whole = values == 2 && static_cast<size_t>(read) == text.size();
-    return whole && width > 0 && height > 0 && width <= 16384 && height <= 16384 ? "" : text + " is not WxH in pixels";
-}
 
 std::string place(const std::string& text) {
     double x = 0.0;
@@ -35,10 +25,6 @@ std::string place(const std::string& text) {
 std::string point(const std::string& text) {
     glm::vec3 value;
     return parsePoint(text, value) ? "" : text + " is not X,Y,Z, all finite";
-}
-
-CLI::Validator sizeValidator() {
-    return {size, "WxH"};
 }
 
 std::vector<std::string> viewNames() {
@@ -163,7 +149,7 @@ void bindAnimate(CLI::App& app, int& exitCode) {
         ->type_name("OUT.webp|OUT_####.png");
     command->add_option("--clip", options->clip, "Clip by name or index; the first one without it")
         ->type_name("NAME|INDEX");
-    command->add_option("--size", options->size, "Of the pictures")->check(sizeValidator())->capture_default_str();
+    bindSize(*command, "--size", options->size, "Of the pictures");
     command->add_option("--fps", options->fps, "Frames a second")->check(CLI::Range(1.0, 240.0))->capture_default_str();
     command->add_option("--seconds", options->seconds, "Instead of the clip's length (4 without a clip)")
         ->check(CLI::Range(0.001, 3600.0));
@@ -193,9 +179,7 @@ void bindRender(CLI::App& app, int& exitCode) {
                     "  supple render hero.glb -o schemes.png --scheme all --size 640x480");
     command->add_option("FILE", options->file, "glTF, GLB or OBJ")->required();
     command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
-    command->add_option("--size", options->size, "Of the picture; with --scheme all of each")
-        ->check(sizeValidator())
-        ->capture_default_str();
+    bindSize(*command, "--size", options->size, "Of the picture; with --scheme all of each");
     bindPose(*command, options->clip, options->time, "the rest pose: as the nodes of the file stand");
     bindDraw(*command, options->draw, {"cage", kAllSchemes});
     bindAlpha(*command, options->draw);
@@ -225,9 +209,7 @@ void bindSheet(CLI::App& app, int& exitCode) {
     command->add_option("--columns", options->columns, "Times a clip")
         ->check(CLI::Range(1u, 32u))
         ->capture_default_str();
-    command->add_option("--cell", options->cell, "Of one picture; a column holds two")
-        ->check(sizeValidator())
-        ->capture_default_str();
+    bindSize(*command, "--cell", options->cell, "Of one picture; a column holds two");
     command->add_flag("--labels,!--no-labels", options->labels, "Write clip and time (on unless --no-labels)");
     bindDraw(*command, options->draw, {});
     command->callback([options, &exitCode] {
@@ -242,7 +224,7 @@ void bindGallery(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand(
         "gallery", "Cages round one vertex, elliptic and as saddles, under all schemes side by side");
     command->add_option("-o,--output", options->output, "PNG to write")->required()->type_name("OUT.png");
-    command->add_option("--cell", options->cell, "Of one picture")->check(sizeValidator())->capture_default_str();
+    bindSize(*command, "--cell", options->cell, "Of one picture");
     command->add_option("--only", options->only, "Cages whose names begin so: \"polar\", \"valence 3, saddle\"")
         ->type_name("NAME");
     command->add_option("--rate", options->draw.rate, "Segments along an edge of the cage")
@@ -262,7 +244,7 @@ void bindView(CLI::App& app, int& exitCode) {
     command->add_option("FILE", options->files,
                         "glTF, GLB or OBJ; one is shown at a time. Without one, choose it in the window");
     command->add_option("--clip", options->clip, "Clip by name or index to begin with")->type_name("NAME|INDEX");
-    command->add_option("--size", options->size, "Of the window")->check(sizeValidator())->capture_default_str();
+    bindSize(*command, "--size", options->size, "Of the window");
     CLI::Option* frames = command->add_option("--frames", options->frames, "Close after so many; 0 stays open");
     command->add_option("--screenshot", options->screenshot, "Write the last frame, window and all")
         ->needs(frames)

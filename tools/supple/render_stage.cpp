@@ -16,15 +16,6 @@
 
 namespace supple::tools {
 
-Result<VkExtent2D> parseSize(const std::string& text) {
-    VkExtent2D extent{};
-    int read = 0;
-    if (std::sscanf(text.c_str(), "%ux%u%n", &extent.width, &extent.height, &read) != 2 ||
-        static_cast<size_t>(read) != text.size() || extent.width == 0 || extent.height == 0)
-        return Error{ErrorCode::argument, text + " is not WxH in pixels"};
-    return extent;
-}
-
 Result<uint32_t> parseView(const std::string& name) {
     std::string all;
     for (const NamedView& known : kViews) {

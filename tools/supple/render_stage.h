@@ -18,8 +18,6 @@
 
 namespace supple::tools {
 
-/// "WxH".
-[[nodiscard]] Result<VkExtent2D> parseSize(const std::string& text);
 /// host::shared::kView... of a view's name.
 [[nodiscard]] Result<uint32_t> parseView(const std::string& name);
 /// The size of a picture, or of a cell of a sheet, and its view.
