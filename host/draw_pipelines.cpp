@@ -34,6 +34,7 @@ namespace {
 
 constexpr float kShadowBias = 4.0f;
 constexpr float kShadowBiasSlope = 1.75f;
+constexpr float kSmallThings = 3.0f; ///< props are hardly larger than texels of a shadow map: they need more of it
 
 /// Keeps what was made, or says why it was not.
 template <class T>
@@ -244,8 +245,8 @@ Result<const AttachmentPipelines*> DrawPipelines::attachments() {
                         .layout = own.layout,
                         .vertexShader = prop_vert,
                         .depth = formats_.shadow,
-                        .depthBias = kShadowBias,
-                        .depthBiasSlope = kShadowBiasSlope};
+                        .depthBias = kSmallThings * kShadowBias,
+                        .depthBiasSlope = kSmallThings * kShadowBiasSlope};
     GraphicsDesc prop{.name = "prop",
                       .layout = own.layout,
                       .vertexShader = prop_vert,

@@ -24,6 +24,7 @@ void main() {
         discard;
     vec3 mapped = normalize(texel.x * inTangent + texel.y * inBitangent + texel.z * n);
     Material material = plainMaterial(color.rgb, push.roughness);
-    Incident light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
+    // Without noise: what is printed has sharp edges and even colors, on which noise would show.
+    Incident light = gatherLight(inPosition, n, kLookAlongAxes, vec3(0.0));
     outColor = vec4(studioTone(material, studioShade(material, light, mapped, n, v)), alpha);
 }

@@ -26,6 +26,7 @@ constexpr double kLongestStep = 0.25;
 constexpr double kTie = 1e-6;
 /// A part of the surface is searched if it may be nearer than what was found by more than this part of the extent.
 constexpr double kMissed = 5e-4;
+constexpr size_t kMostMore = 4; ///< of these: beside a vertex of many faces all may be
 constexpr SuppleSurfacePoint kNoPoint{SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
 
 /// Newton's method for the distance, held to a piece.
@@ -260,12 +261,15 @@ Result<SuppleSurfacePoint> PointFinder::nearestTo(const glm::dvec3& to) const {
     for (const auto& [distance, seed] : nearest) {
         descend((*tree_)[seed]);
     }
-    const auto worthIt = [&] { return status ? std::sqrt(least) - kMissed * extent_ : 0.0; };
-    tree_->forEachNearer(to, worthIt, [&](size_t seed) {
-        if (std::none_of(nearest.begin(), nearest.end(), [&](const auto& own) { return own.second == seed; })) {
+    const auto worthIt = [&] { return std::sqrt(least) - kMissed * extent_; };
+    for (const auto& [atLeast, seed] : tree_->mayBeNearer(to, worthIt(), kMostMore)) {
+        const size_t own = seed;
+        const bool isKnown =
+            std::any_of(nearest.begin(), nearest.end(), [&](const auto& other) { return other.second == own; });
+        if (!isKnown && atLeast < worthIt()) {
             descend((*tree_)[seed]);
         }
-    });
+    }
     if (!status) {
         return status.error();
     }

@@ -44,10 +44,16 @@ public:
         search(0, seeds_.size(), to, best);
         return best;
     }
-    /// Calls visit(seed) for all whose cells may have a point nearer than `distance()`, which may fall meanwhile.
-    template <class Distance, class Visit>
-    void forEachNearer(const glm::dvec3& to, const Distance& distance, const Visit& visit) const {
-        visitNearer(0, seeds_.size(), to, distance, visit);
+    /// Those whose cells may have a point nearer than `distance`: how near, and the seed. The first ones in rising
+    /// order.
+    [[nodiscard]] std::vector<std::pair<double, size_t>> mayBeNearer(const glm::dvec3& to, double distance,
+                                                                     size_t most) const {
+        std::vector<std::pair<double, size_t>> found;
+        addNearer(0, seeds_.size(), to, distance, found);
+        const size_t count = std::min(most, found.size());
+        std::partial_sort(found.begin(), found.begin() + static_cast<ptrdiff_t>(count), found.end());
+        found.resize(count);
+        return found;
     }
 
 private:
@@ -74,23 +80,22 @@ private:
         const float own = seeds_[middle].reach + seeds_[middle].bend;
         return sizes_[middle] = std::max({own, split(begin, middle), split(middle + 1, end)});
     }
-    template <class Distance, class Visit>
-    void visitNearer(size_t begin, size_t end, const glm::dvec3& to, const Distance& distance,
-                     const Visit& visit) const {
+    void addNearer(size_t begin, size_t end, const glm::dvec3& to, double distance,
+                   std::vector<std::pair<double, size_t>>& found) const {
         if (begin == end) {
             return;
         }
         const size_t middle = (begin + end) / 2;
         const Seed& own = seeds_[middle];
-        if (own.leastDistance(to) < distance()) {
-            visit(middle);
+        if (const double least = own.leastDistance(to); least < distance) {
+            found.emplace_back(least, middle);
         }
-        const double apart = own.position[axes_[middle]] - to[axes_[middle]], size = sizes_[middle];
-        if (apart > 0.0 || -apart < distance() + size) {
-            visitNearer(begin, middle, to, distance, visit);
+        const double apart = own.position[axes_[middle]] - to[axes_[middle]], reached = distance + sizes_[middle];
+        if (apart > -reached) {
+            addNearer(begin, middle, to, distance, found);
         }
-        if (apart <= 0.0 || apart < distance() + size) {
-            visitNearer(middle + 1, end, to, distance, visit);
+        if (apart < reached) {
+            addNearer(middle + 1, end, to, distance, found);
         }
     }
     void search(size_t begin, size_t end, const glm::dvec3& to, std::vector<std::pair<double, size_t>>& best) const {

@@ -5,7 +5,7 @@
 #include "shaders/decal_frag.h"
 #include "shaders/decal_vert.h"
 
-#include <cmath>
+#include <algorithm>
 #include <optional>
 
 namespace engine {
@@ -14,27 +14,33 @@ namespace {
 
 constexpr uint32_t kPixels = 128;
 /// In heights of the character: where its chest is, and how large the sticker.
-constexpr float kChest = 0.40f, kSize = 0.17f;
+constexpr float kChest = 0.40f, kSize = 0.15f;
 
-/// A number on a disk with a dark rim.
+/// From a place to a line.
+float distanceTo(glm::vec2 at, glm::vec2 from, glm::vec2 to) {
+    const float along = glm::clamp(glm::dot(at - from, to - from) / glm::dot(to - from, to - from), 0.0f, 1.0f);
+    return glm::distance(at, glm::mix(from, to, along));
+}
+
+/// A seven on a disk with a dark rim.
 Picture numberPicture() {
+    constexpr glm::vec3 kRim{0.10f, 0.13f, 0.30f}, kPaper{0.96f, 0.95f, 0.90f}, kRed{0.75f, 0.10f, 0.13f};
+    const auto covered = [](float inside) { return glm::clamp(0.5f + inside * (0.5f * kPixels), 0.0f, 1.0f); };
     Picture picture = Picture::blank(kPixels, kPixels);
-    for (uint32_t y = 0; y < kPixels; ++y) {
-        for (uint32_t x = 0; x < kPixels; ++x) {
-            const float radius = std::hypot(2.0f * static_cast<float>(x) + 1.0f - kPixels,
-                                            2.0f * static_cast<float>(y) + 1.0f - kPixels) /
-                                 kPixels;
-            const float inside = glm::clamp((0.95f - radius) * 0.5f * kPixels, 0.0f, 1.0f);
-            const glm::vec3 color = glm::mix(glm::vec3(0.10f, 0.13f, 0.30f), glm::vec3(0.96f, 0.95f, 0.90f),
-                                             glm::clamp((0.80f - radius) * 0.5f * kPixels, 0.0f, 1.0f));
-            uint8_t* const pixel = picture.pixel(x, y);
+    for (uint32_t row = 0; row < kPixels; ++row) {
+        for (uint32_t column = 0; column < kPixels; ++column) {
+            const glm::vec2 at = (2.0f * glm::vec2(column, row) + 1.0f) / static_cast<float>(kPixels) - 1.0f;
+            const float radius = glm::length(at);
+            const float stroke = std::min(distanceTo(at, {-0.32f, -0.42f}, {0.32f, -0.42f}),
+                                          distanceTo(at, {0.32f, -0.42f}, {-0.10f, 0.48f}));
+            glm::vec3 color = glm::mix(kRim, kPaper, covered(0.80f - radius));
+            color = glm::mix(color, kRed, covered(0.10f - stroke));
+            uint8_t* const pixel = picture.pixel(column, row);
             for (int k = 0; k < 3; ++k)
                 pixel[k] = static_cast<uint8_t>(255.0f * color[k]);
-            pixel[3] = static_cast<uint8_t>(255.0f * inside);
+            pixel[3] = static_cast<uint8_t>(255.0f * covered(0.95f - radius));
         }
     }
-    constexpr uint8_t kRed[3] = {190, 30, 36};
-    picture.drawText(47, 32, "7", 7, kRed);
     return picture;
 }
 

@@ -178,7 +178,7 @@ typedef struct SupplePointQuery {
  * out: query->count points, with UV pointsEach times as many; null if there are none. Like a first set, the first call
  * for a group makes its surfaces. NEAREST begins from samples: 16 a triangle or quad; of a larger face 16 a side up to
  * 8 sides, 4 up to 32, one beyond. RAY begins from triangles between as many samples, at least 4 a side. The first
- * call in the bind pose makes and keeps them (50 bytes a sample, for RAY 400 bytes a quad); with a cage each call makes
+ * call in the bind pose makes and keeps them (80 bytes a sample, for RAY 400 bytes a quad); with a cage each call makes
  * its own. Then a point takes about 0.1 ms. UV and SCATTER go over all faces once in each call. The result is the same
  * on every machine up to rounding. If a ray grazes a face and meets it twice, the farther of the two points may be
  * found: less than 4 in 1000 rays are wrong where a third of them graze.
