@@ -43,6 +43,16 @@ struct CreaseScalar {
     float alpha = 0.0f;
 };
 
+/// A primitive of a glTF file, and where its triangles begin in Cage::sourceTriangles. A mesh that several nodes carry
+/// comes once for each part.
+struct SourcePrimitive {
+    uint32_t mesh = 0;
+    uint32_t primitive = 0;
+    uint32_t firstTriangle = 0;
+
+    bool operator==(const SourcePrimitive&) const = default;
+};
+
 /// A control cage: oriented polygons (counter-clockwise seen from outside) over welded cage vertices.
 /// Attributes stay per corner, so that UV and colour seams survive welding.
 struct Cage {
@@ -67,8 +77,12 @@ struct Cage {
     /// read from files: laid when a surface is built, which carries it as it does UVs.
     std::vector<glm::vec2> cornerFaceUvs;
     std::vector<uint32_t> sourceVertices; ///< one per cage vertex: first POSITION element it came from (weld order)
-    std::vector<Crease> creases;          ///< at most one an edge
-    std::vector<std::string> creaseSets;  ///< names, each once; kMaxCreaseSets (limits.h) at most
+    /// glTF files: the triangles of the file, three corners of one face each, or kNone three times where no face has
+    /// them. Else empty.
+    std::vector<uint32_t> sourceTriangles;
+    std::vector<SourcePrimitive> sourcePrimitives; ///< in the order of their triangles
+    std::vector<Crease> creases;                   ///< at most one an edge
+    std::vector<std::string> creaseSets;           ///< names, each once; kMaxCreaseSets (limits.h) at most
     std::vector<SharpVertex> sharpVertices;
     std::vector<CreaseScalar> creaseScalars;
     /// Vertices that round the border off if they have one face. Elsewhere such a vertex is a corner.

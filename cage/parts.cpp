@@ -101,6 +101,13 @@ void appendCage(const Cage& from, uint32_t sourceVertices, Cage& cage) {
     for (const uint32_t v : from.sourceVertices) {
         cage.sourceVertices.push_back(sourceVertices + v);
     }
+    for (const SourcePrimitive& own : from.sourcePrimitives) {
+        const auto before = static_cast<uint32_t>(cage.sourceTriangles.size() / 3);
+        cage.sourcePrimitives.push_back({own.mesh, own.primitive, before + own.firstTriangle});
+    }
+    for (const uint32_t corner : from.sourceTriangles) {
+        cage.sourceTriangles.push_back(corner == kNone ? kNone : corners + corner);
+    }
     appendCreases(from, vertices, cage);
     for (const SharpVertex& sharp : from.sharpVertices) {
         cage.sharpVertices.push_back({vertices + sharp.vertex, sharp.sharpness});
@@ -333,6 +340,24 @@ std::vector<uint32_t> PaletteBuilder::add(const Skin& skin) {
     return places;
 }
 
+namespace {
+
+/// As reverseFaces() moves the corners.
+void reverseSourceTriangles(Cage& cage, std::span<const uint8_t> turned) {
+    for (uint32_t& corner : cage.sourceTriangles) {
+        if (corner == kNone) {
+            continue;
+        }
+        const auto next = std::upper_bound(cage.faceStarts.begin(), cage.faceStarts.end(), corner);
+        const auto face = static_cast<size_t>(next - cage.faceStarts.begin() - 1);
+        if (turned[face] != 0 && corner != cage.faceStarts[face]) {
+            corner = cage.faceStarts[face] + cage.faceStarts[face + 1] - corner;
+        }
+    }
+}
+
+} // namespace
+
 void reverseFaces(Cage& cage, std::span<const uint8_t> turned) {
     const auto reverse = [&](auto& values) {
         for (uint32_t f = 0; f < cage.faceCount() && !values.empty(); ++f) {
@@ -341,6 +366,7 @@ void reverseFaces(Cage& cage, std::span<const uint8_t> turned) {
             }
         }
     };
+    reverseSourceTriangles(cage, turned);
     reverse(cage.faceVertices);
     reverse(cage.cornerUvs);
     reverse(cage.cornerUvs1);

@@ -12,9 +12,15 @@
 #include <shaders/cage_face_vert.h>
 #include <shaders/cage_shadow_trim_vert.h>
 #include <shaders/cage_shadow_vert.h>
+#include <shaders/decal_frag.h>
+#include <shaders/decal_frag_TRACED.h>
+#include <shaders/decal_vert.h>
 #include <shaders/ground_frag.h>
 #include <shaders/ground_frag_TRACED.h>
 #include <shaders/ground_vert.h>
+#include <shaders/prop_frag.h>
+#include <shaders/prop_frag_TRACED.h>
+#include <shaders/prop_vert.h>
 #include <shaders/surface_frag.h>
 #include <shaders/surface_frag_TRACED.h>
 #include <shaders/surface_shadow_trim_frag.h>
@@ -28,6 +34,7 @@ namespace {
 
 constexpr float kShadowBias = 4.0f;
 constexpr float kShadowBiasSlope = 1.75f;
+constexpr float kSmallThings = 3.0f; ///< props are hardly larger than texels of a shadow map: they need more of it
 
 /// Keeps what was made, or says why it was not.
 template <class T>
@@ -212,6 +219,53 @@ Status DrawPipelines::createPicturePipelines() {
             return status.error();
     }
     return success();
+}
+
+Result<const AttachmentPipelines*> DrawPipelines::attachments() {
+    AttachmentPipelines& own = attachments_;
+    if (own.decal != VK_NULL_HANDLE)
+        return &own;
+    constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT, kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
+    const std::initializer_list<Binding> bindings = {
+        {shared::kAttachmentFrameBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+        {shared::kAttachmentVertexBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+        {shared::kAttachmentInstanceBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+        {shared::kDecalColorBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+        {shared::kDecalNormalBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+    };
+    if (const Status status = keep(createSetLayout(device_, bindings), own.set); !status)
+        return status.error();
+    // With the push constants of `layout`, so that the frame's set stays bound.
+    if (const Status status =
+            keep(createPipelineLayout(device_, {frameSet, own.set}, sizeof(shared::DrawPush), kVertex | kFragment),
+                 own.layout);
+        !status)
+        return status.error();
+    GraphicsDesc shadow{.name = "prop shadow",
+                        .layout = own.layout,
+                        .vertexShader = prop_vert,
+                        .depth = formats_.shadow,
+                        .depthBias = kSmallThings * kShadowBias,
+                        .depthBiasSlope = kSmallThings * kShadowBiasSlope};
+    GraphicsDesc prop{.name = "prop",
+                      .layout = own.layout,
+                      .vertexShader = prop_vert,
+                      .fragmentShader = formats_.traced ? std::span<const uint32_t>(prop_frag_TRACED) : prop_frag,
+                      .colors = {formats_.color},
+                      .depth = formats_.depth,
+                      .samples = formats_.samples};
+    GraphicsDesc decal = prop;
+    decal.name = "decal";
+    decal.vertexShader = decal_vert;
+    decal.fragmentShader = formats_.traced ? std::span<const uint32_t>(decal_frag_TRACED) : decal_frag;
+    decal.blend = Blend::over;
+    decal.depthWrite = false;
+    Status made = keep(createGraphicsPipeline(device_, shadow), own.propShadow);
+    if (made)
+        made = keep(createGraphicsPipeline(device_, prop), own.prop);
+    if (made)
+        made = keep(createGraphicsPipeline(device_, decal), own.decal);
+    return made ? Result<const AttachmentPipelines*>(&own) : made.error();
 }
 
 } // namespace supple::host

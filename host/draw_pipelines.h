@@ -1,6 +1,7 @@
 // The pipelines of host/shaders and the layout they have in common. They live as long as the device.
 #pragma once
 
+#include "host/attachments.h"
 #include "host/device.h"
 #include "host/pipelines.h"
 
@@ -50,6 +51,9 @@ public:
     /// They are prepared.
     [[nodiscard]] VkPipeline operator[](const Faces& faces) const { return faces_.at(faces); }
 
+    /// Of what sits on the surface; made when first asked for.
+    [[nodiscard]] Result<const AttachmentPipelines*> attachments();
+
     VkPipeline surfaceShadow = VK_NULL_HANDLE; ///< without holes
     VkPipeline cageShadow = VK_NULL_HANDLE;
     VkPipeline cageEdge = VK_NULL_HANDLE;
@@ -66,6 +70,7 @@ private:
     Device& device_;
     DrawFormats formats_;
     std::map<Faces, VkPipeline> faces_;
+    AttachmentPipelines attachments_;
 };
 
 } // namespace supple::host

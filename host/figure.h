@@ -158,6 +158,7 @@ struct FigureSurface {
         uint32_t firstIndex = 0, indexCount = 0;
     };
     std::array<CoarseGrid, 4> coarseGrids;
+    uint32_t coarseEdgeRate = 0; ///< edgeRate of these
     Buffer coarseIndices;
     Buffer
         values; ///< a float per vertex of an instance, for the views from kViewWeights on but kViewLevels; may be none

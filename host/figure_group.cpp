@@ -257,6 +257,7 @@ Status FigureGroup::uploadCoarseGrids(FigureSurface& surface) const {
     while (segments > fewest && shown * 2 * segments * segments > budget &&
            halvedSegments(segments, rate, fewest) < segments)
         segments = halvedSegments(segments, rate, fewest);
+    surface.coarseEdgeRate = segments * surface.output.surface.patchesPerEdge;
     std::vector<uint16_t> indices;
     for (const SuppleDomain domain :
          {SUPPLE_DOMAIN_QUAD, SUPPLE_DOMAIN_POLAR, SUPPLE_DOMAIN_TRIANGLE, SUPPLE_DOMAIN_PENTAGON}) {

@@ -122,6 +122,17 @@ std::span<const Blend> blendsOf(const Scene& scene, uint32_t material) {
         return {};
     return isGlass(scene.group->figure().materials(), material) ? std::span<const Blend>(kGlass) : kOver;
 }
+/// On the surface as it is, and nowhere else.
+bool showsAttachments(const Scene& scene) {
+    return scene.attachments != nullptr && scene.view == shared::kViewShaded && !scene.cageFaces;
+}
+/// The fewest along an edge of the cage; at levels 0.
+uint32_t segmentsOf(const Scene& scene) {
+    uint32_t fewest = UINT32_MAX;
+    for (const FigureSurface& surface : scene.group->surfaces())
+        fewest = std::min(fewest, scene.coarse ? surface.coarseEdgeRate : surface.edgeRate);
+    return scene.group->hasLevels() ? 0 : fewest;
+}
 /// Which side is not drawn, where winding tells the sides apart.
 VkCullModeFlags culled(const Scene& scene, uint32_t material) {
     return scene.view == shared::kViewShaded && scene.group->figure().materials().isOneSided(material)
@@ -481,6 +492,12 @@ Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, ui
     return success();
 }
 
+Result<std::unique_ptr<Attachments>> SurfaceRenderer::createAttachments(const FigureGroup& group) {
+    const Result<const AttachmentPipelines*> pipelines = pipelines_->attachments();
+    return pipelines ? Attachments::create(device_, **pipelines, group)
+                     : Result<std::unique_ptr<Attachments>>(pipelines.error());
+}
+
 DrawPipelines::Faces SurfaceRenderer::facesOf(const Scene& scene, const DrawRun& run, Blend blend) const {
     const bool isFlat = scene.view >= shared::kViewTangents;
     const bool hasMaps = scene.group->figure().materials().hasMaps(run.material);
@@ -645,6 +662,8 @@ void SurfaceRenderer::drawShadow(VkCommandBuffer commands, const Scene& scene, u
         bindSurface(commands, scene, i);
         drawSurfaceShadow(commands, scene, scene.group->surfaces()[i], light);
     }
+    if (showsAttachments(scene))
+        scene.attachments->drawShadow(commands, light);
 }
 
 void SurfaceRenderer::drawPane(VkCommandBuffer commands, const DrawTarget& target, const Pane& pane) const {
@@ -678,6 +697,10 @@ void SurfaceRenderer::drawScene(VkCommandBuffer commands, const Scene& scene) co
     if (scene.group != nullptr) {
         runs = runsOf(scene);
         drawFaces(commands, scene, runs, false);
+        if (showsAttachments(scene)) {
+            scene.attachments->draw(commands, segmentsOf(scene));
+            bindSurface(commands, scene, 0);
+        }
     }
     if (scene.ground.has_value() && scene.camera.eye().y > *scene.ground) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_->ground);

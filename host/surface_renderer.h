@@ -1,6 +1,7 @@
 // Draws a figure's group: its surface in one of several views, or its deformed cage, in the studio's light.
 #pragma once
 
+#include "host/attachments.h"
 #include "host/camera.h"
 #include "host/draw_pipelines.h"
 #include "host/draw_target.h"
@@ -50,6 +51,7 @@ private:
 struct Scene {
     const FigureGroup* group = nullptr; ///< none: an empty studio
     const FigureBinding* binding = nullptr;
+    const Attachments* attachments = nullptr; ///< of the group; drawn on its shaded surface
     Camera camera;
     Bounds bounds;                     ///< of the figure over all the time it is shown
     std::optional<float> ground;       ///< height of the floor
@@ -78,6 +80,9 @@ public:
     SurfaceRenderer& operator=(const SurfaceRenderer&) = delete;
 
     [[nodiscard]] Result<FigureBinding> bind(const FigureGroup& group);
+
+    /// For Attachments of what this renderer draws.
+    [[nodiscard]] Result<std::unique_ptr<Attachments>> createAttachments(const FigureGroup& group);
 
     [[nodiscard]] const StudioQuality& quality() const { return quality_; }
 

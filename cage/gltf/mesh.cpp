@@ -76,6 +76,7 @@ public:
         const auto meshIndex = static_cast<size_t>(model_.nodes[binding_.node].mesh);
         const auto& mesh = model_.meshes[meshIndex];
         out_.element = at("mesh", meshIndex);
+        out_.number = static_cast<uint32_t>(meshIndex);
         const std::vector<size_t> numbers = findDrawn(mesh);
         if (out_.primitives.empty()) {
             whyEmpty = whyNothingIsDrawn(mesh, out_.element);
@@ -137,6 +138,7 @@ private:
             }
             if (isDrawn(from)) {
                 out_.primitives.emplace_back().element = element;
+                out_.primitives.back().number = static_cast<uint32_t>(k);
                 addExtension(from, out_.primitives.back());
                 numbers.push_back(k);
                 continue;

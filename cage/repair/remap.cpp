@@ -197,8 +197,40 @@ private:
         cage_.faceTriangles = std::move(mapped);
     }
 
+    /// Before the faces are mapped. A triangle whose corners are no longer on one face is lost.
+    void mapSourceTriangles() {
+        if (cage_.sourceTriangles.empty()) {
+            return;
+        }
+        struct Place {
+            uint32_t corner = kNone, face = kNone;
+        };
+        std::vector<Place> places(cage_.cornerCount()); // per corner that it was: where it stands first
+        for (uint32_t f = 0; f < draft_.faceCount(); ++f) {
+            for (uint32_t c = draft_.starts[f]; c < draft_.starts[f + 1]; ++c) {
+                const uint32_t was = draft_.corners[c], source = draft_.faces[f];
+                const bool own = was >= cage_.faceStarts[source] && was < cage_.faceStarts[source + 1];
+                if (own && places[was].corner == kNone) {
+                    places[was] = {c, f};
+                }
+            }
+        }
+        for (size_t t = 0; t < cage_.sourceTriangles.size(); t += 3) {
+            const auto at = [&](size_t k) {
+                const uint32_t corner = cage_.sourceTriangles[t + k];
+                return corner == kNone ? Place{} : places[corner];
+            };
+            const Place a = at(0), b = at(1), c = at(2);
+            const bool together = a.face != kNone && a.face == b.face && a.face == c.face;
+            cage_.sourceTriangles[t] = together ? a.corner : kNone;
+            cage_.sourceTriangles[t + 1] = together ? b.corner : kNone;
+            cage_.sourceTriangles[t + 2] = together ? c.corner : kNone;
+        }
+    }
+
     void mapFaces() {
         mapTriangles();
+        mapSourceTriangles();
         cage_.faceStarts = draft_.starts;
         cage_.faceVertices.clear();
         for (const uint32_t v : draft_.vertices) {

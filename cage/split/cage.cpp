@@ -9,6 +9,8 @@
 #include "cage/triangulation.h"
 
 #include <algorithm>
+#include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -269,6 +271,81 @@ void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding,
     cage.faceTriangles = std::move(triangles);
 }
 
+/// Finds the faces that have a primitive's triangles.
+class TriangleFinder {
+public:
+    TriangleFinder(const Faces& faces, size_t primitive, const Welding& welding) : faces_(faces), welding_(welding) {
+        for (uint32_t f = 0; f < faces.primitives.size(); ++f) {
+            for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1]; ++c) {
+                if (faces.primitives[f] == primitive) {
+                    corners_.push_back({welding.roots[faces.polygons.vertices[c]], f, c});
+                }
+            }
+        }
+        std::sort(corners_.begin(), corners_.end());
+    }
+
+    /// The triangle's corners on the first face that has all three, one behind the other.
+    [[nodiscard]] std::array<uint32_t, 3> find(std::span<const uint32_t, 3> triangle) const {
+        size_t rarest = 0;
+        std::array<std::span<const Corner>, 3> at;
+        for (size_t k = 0; k < 3; ++k) {
+            at[k] = cornersAt(welding_.roots[triangle[k]]);
+            rarest = at[k].size() < at[rarest].size() ? k : rarest;
+        }
+        for (const Corner& corner : at[rarest].first(std::min(at[rarest].size(), kMostFaces))) {
+            std::array<uint32_t, 3> found{};
+            found[rarest] = corner.corner;
+            found[(rarest + 1) % 3] = cornerOf(corner.face, welding_.roots[triangle[(rarest + 1) % 3]]);
+            found[(rarest + 2) % 3] = cornerOf(corner.face, welding_.roots[triangle[(rarest + 2) % 3]]);
+            if (isTurnedAlike(found)) {
+                return found;
+            }
+        }
+        return {kNone, kNone, kNone};
+    }
+
+private:
+    /// Whether all corners of a triangle are of more faces than these: then it may not be found. So the work is bound.
+    static constexpr size_t kMostFaces = 64;
+    struct Corner {
+        uint32_t root = 0, face = 0, corner = 0;
+        auto operator<=>(const Corner&) const = default;
+    };
+    [[nodiscard]] std::span<const Corner> cornersAt(uint32_t root) const {
+        const auto first = std::lower_bound(corners_.begin(), corners_.end(), Corner{root, 0, 0});
+        const auto end = std::lower_bound(first, corners_.end(), Corner{root + 1, 0, 0});
+        return {first, end};
+    }
+    [[nodiscard]] uint32_t cornerOf(uint32_t face, uint32_t root) const {
+        const std::span<const Corner> at = cornersAt(root);
+        const auto found = std::lower_bound(at.begin(), at.end(), Corner{root, face, 0});
+        return found != at.end() && found->face == face ? found->corner : kNone;
+    }
+    [[nodiscard]] static bool isTurnedAlike(const std::array<uint32_t, 3>& c) {
+        const int rises = (c[0] < c[1] ? 1 : 0) + (c[1] < c[2] ? 1 : 0) + (c[2] < c[0] ? 1 : 0);
+        return c[0] != kNone && c[1] != kNone && c[2] != kNone && rises == 2;
+    }
+
+    const Faces& faces_;
+    const Welding& welding_;
+    std::vector<Corner> corners_;
+};
+
+/// Where the triangles of a file lie in the cage's faces.
+void fillSourceTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding, Cage& cage) {
+    for (size_t p = 0; p < mesh.primitives.size() && mesh.number; ++p) {
+        const Primitive& primitive = mesh.primitives[p];
+        cage.sourcePrimitives.push_back(
+            {*mesh.number, primitive.number, static_cast<uint32_t>(cage.sourceTriangles.size() / 3)});
+        const TriangleFinder finder(faces, p, welding);
+        for (size_t i = 0; i + 2 < primitive.triangles.size(); i += 3) {
+            const auto found = finder.find(std::span<const uint32_t, 3>(&primitive.triangles[i], 3));
+            cage.sourceTriangles.insert(cage.sourceTriangles.end(), found.begin(), found.end());
+        }
+    }
+}
+
 /// A face's corners name one tile.
 void fillTrimTiles(const Mesh& mesh, const Faces& faces, Cage& cage) {
     if (std::all_of(mesh.primitives.begin(), mesh.primitives.end(),
@@ -357,6 +434,7 @@ std::vector<uint32_t> fillCage(const Mesh& mesh, const Faces& faces, const Weldi
     fillCorners(mesh, faces, cage);
     fillShading(mesh, faces, cage);
     fillTriangles(mesh, faces, welding, cage);
+    fillSourceTriangles(mesh, faces, welding, cage);
     leniency.gather([&] { fillTrimTiles(mesh, faces, cage); });
 
     fillMotion(mesh, out);

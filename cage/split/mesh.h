@@ -41,6 +41,7 @@ struct CreaseSet {
 /// One primitive.
 struct Primitive {
     std::string element;
+    uint32_t number = 0; ///< within the file's mesh
     int material = -1;
     PolygonData faces;        ///< vertices counted as in `triangles`
     uint32_t firstVertex = 0; ///< of its own among all vertices of the mesh
@@ -75,6 +76,7 @@ struct LooseSharpList {
 /// Primitives over the same data share their vertices.
 struct Mesh {
     std::string element;
+    std::optional<uint32_t> number; ///< of a glTF file: its triangles are remembered
     std::vector<glm::vec3> positions;
     float gridStep = 0.0f; ///< of the coarsest grid that positions were rounded to; 0: none
     VertexWeights weights;

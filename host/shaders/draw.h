@@ -42,6 +42,13 @@ SUPPLE_HOST_CONST kLevelPatchBinding = 12u;
 SUPPLE_HOST_CONST kMaterialBinding = 0u;
 SUPPLE_HOST_CONST kFirstTextureBinding = 1u;
 
+// Set 1 of what sits on the figure (host/attachments.h).
+SUPPLE_HOST_CONST kAttachmentFrameBinding = 0u; // SUPPLE_POINT_FRAME_48
+SUPPLE_HOST_CONST kAttachmentVertexBinding = 1u;
+SUPPLE_HOST_CONST kAttachmentInstanceBinding = 2u;
+SUPPLE_HOST_CONST kDecalColorBinding = 3u;
+SUPPLE_HOST_CONST kDecalNormalBinding = 4u;
+
 // The textures of a material.
 SUPPLE_HOST_CONST kBaseColor = 0u;
 SUPPLE_HOST_CONST kMetallicRoughness = 1u;
@@ -239,6 +246,23 @@ struct MaterialUniforms {
     float clearcoatNormalScale;
     float transmission;
     float unused;
+};
+
+// A vertex of a prop: position and roughness, normal and how much it shines by itself, color and metallic. Of a decal, one per
+// point: u, v, opacity, and how far it is moved towards the eye besides.
+struct AttachmentVertex {
+    vec4 a;
+    vec4 b;
+    vec4 c;
+};
+
+SUPPLE_HOST_CONST kNoLight = 0xFFFFFFFFu;
+struct AttachmentPush {
+    uint pointCount; // of the point set
+    uint light;      // whose shadow map is being drawn, or kNoLight
+    float scale;     // of a prop
+    float lift;      // of a decal: how far it is moved towards the eye, if it faces it
+    float roughness; // of a decal
 };
 
 // One corner of a triangle of a cage face; three in a row make the triangle.

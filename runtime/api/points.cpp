@@ -50,19 +50,26 @@ std::optional<Error> faultOfValues(const SupplePointQuery& query) {
 /// The same of a query.
 std::optional<Error> faultOf(const SupplePointQuery& query) {
     const bool isUv = query.kind == SUPPLE_FIND_UV, isScatter = query.kind == SUPPLE_FIND_SCATTER;
-    if (!within(query.kind, SUPPLE_FIND_RAY) || query.uvSet > (isUv ? 1u : 0u) || (query.seed != 0 && !isScatter) ||
+    const bool isGltf = query.kind == SUPPLE_FIND_GLTF, isGiven = query.kind == SUPPLE_FIND_GIVEN;
+    if (!within(query.kind, SUPPLE_FIND_GIVEN) || query.uvSet > (isUv ? 1u : 0u) || (query.seed != 0 && !isScatter) ||
         (query.pointsEach != 0 && !isUv) || query.reserved != 0) {
         return Error{ErrorCode::range,
                      "kind must be one of SupplePointQueryKind, uvSet, seed and pointsEach what it takes"};
     }
-    if (isScatter ? query.values != nullptr : query.values == nullptr && query.count > 0) {
-        return Error{ErrorCode::nullPointer, "values must be null for SCATTER, and there for all others"};
+    if (isScatter || isGltf || isGiven ? query.values != nullptr : query.values == nullptr && query.count > 0) {
+        return Error{ErrorCode::nullPointer, "values must be there for NEAREST, UV and RAY, and null for all others"};
+    }
+    if (isGltf ? query.gltf == nullptr && query.count > 0 : query.gltf != nullptr) {
+        return Error{ErrorCode::nullPointer, "gltf must be there for GLTF, and null for all others"};
+    }
+    if (isGiven && query.jets == nullptr && query.count > 0) {
+        return Error{ErrorCode::nullPointer, "jets must be there for GIVEN"};
     }
     if ((query.cage == nullptr) != (query.cageVertexCount == 0)) {
         return Error{ErrorCode::nullPointer, "cage and cageVertexCount do not agree"};
     }
-    if (query.cage != nullptr && isUv) {
-        return Error{ErrorCode::argument, "UV takes no cage: texture coordinates are those of the file"};
+    if (query.cage != nullptr && (isUv || isGltf)) {
+        return Error{ErrorCode::argument, "UV and GLTF take no cage: they are of the file"};
     }
     if (runtime::pointsOf(query) > UINT32_MAX) {
         return Error{ErrorCode::range, "count times pointsEach is more than 32 bits number"};

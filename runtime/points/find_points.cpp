@@ -1,13 +1,13 @@
 #include "runtime/points/find_points.h"
 
 #include "runtime/cpu_group.h"
+#include "runtime/points/gltf_points.h"
 #include "runtime/points/point_pieces.h"
 #include "runtime/points/ray_tree.h"
 #include "runtime/points/seed_tree.h"
 #include "runtime/points/uv_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -24,6 +24,9 @@ constexpr int kRounds = 10;
 constexpr double kLongestStep = 0.25;
 /// Places are equally near if their distances differ by less than this part of the extent.
 constexpr double kTie = 1e-6;
+/// A part of the surface is searched if it may be nearer than what was found by more than this part of the extent.
+constexpr double kMissed = 5e-4;
+constexpr size_t kMostMore = 4; ///< of these: beside a vertex of many faces all may be
 constexpr SuppleSurfacePoint kNoPoint{SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
 
 /// Newton's method for the distance, held to a piece.
@@ -112,6 +115,28 @@ private:
     glm::dvec3 to_;
 };
 
+/// The disk that a cell's surface lies near to, by its jet.
+SeedTree::Seed seedOf(const Cell& cell, bool isQuad, uint32_t piece, const SuppleSurfaceJet& jet) {
+    const glm::dvec2 at = cell.middle(isQuad);
+    const glm::dvec3 du = vectorAt(jet.du), dv = vectorAt(jet.dv), across = glm::cross(du, dv);
+    const double area = glm::length(across);
+    double reach = 0.0, bend = 0.0;
+    const glm::dvec2 corners[] = {cell.origin, cell.origin + cell.x, cell.origin + cell.y,
+                                  cell.origin + cell.x + cell.y};
+    for (const glm::dvec2& corner : std::span(corners, isQuad ? 4 : 3)) {
+        const glm::dvec2 way = corner - at, size = glm::abs(way);
+        reach = std::max(reach, glm::length(way.x * du + way.y * dv));
+        bend = std::max(bend, 0.5 * (glm::length(vectorAt(jet.duu)) * size.x * size.x +
+                                     2.0 * glm::length(vectorAt(jet.duv)) * size.x * size.y +
+                                     glm::length(vectorAt(jet.dvv)) * size.y * size.y));
+    }
+    const glm::dvec3 normal = area > 0.0 ? across / area : glm::dvec3(0.0);
+    if (area <= 0.0) {
+        bend += reach;
+    }
+    return {vectorAt(jet.position), piece, at.x, at.y, normal, static_cast<float>(reach), static_cast<float>(bend)};
+}
+
 /// Numbers from 0 to 1, the same for a seed everywhere (splitmix64).
 class RandomNumbers {
 public:
@@ -165,7 +190,7 @@ private:
     CpuPose pose_;
     std::optional<SeedTree> tree_; ///< made when a nearest point is asked for
     std::optional<RayTree> rays_;  ///< made when a ray is
-    double tie_ = 0.0;
+    double extent_ = 0.0;
 };
 
 Status
@@ -202,14 +227,13 @@ Status PointFinder::plant() {
     std::vector<SeedTree::Seed> seeds;
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
     Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
-        const glm::dvec2 at = cell.middle(pieces_[p].isQuad);
         const glm::dvec3 position = vectorAt(jet.position);
         low = glm::min(low, position);
         high = glm::max(high, position);
-        seeds.push_back({position, p, at.x, at.y});
+        seeds.push_back(seedOf(cell, pieces_[p].isQuad, p, jet));
     });
     if (made) {
-        tie_ = kTie * glm::distance(low, high);
+        extent_ = glm::distance(low, high);
         tree_.emplace(std::move(seeds));
     }
     return made;
@@ -220,23 +244,39 @@ Result<SuppleSurfacePoint> PointFinder::nearestTo(const glm::dvec3& to) const {
         const Piece* piece = nullptr;
         NearestInPiece::Found found;
     };
-    std::array<Candidate, SeedTree::kNearest> candidates;
-    size_t count = 0;
+    std::vector<Candidate> candidates;
+    Status status = success();
     double least = std::numeric_limits<double>::infinity();
-    for (const SeedTree::Seed& seed : tree_->nearest(to)) {
+    const auto descend = [&](const SeedTree::Seed& seed) {
         const Piece& piece = pieces_[seed.piece];
         const auto found = NearestInPiece(pose_, piece, to).from(seed.a, seed.b);
         if (!found) {
-            return found.error();
+            status = found.error();
+            return;
         }
-        candidates[count++] = {&piece, *found};
+        candidates.push_back({&piece, *found});
         least = std::min(least, found->distance);
+    };
+    const std::vector<std::pair<double, size_t>> nearest = tree_->nearest(to);
+    for (const auto& [distance, seed] : nearest) {
+        descend((*tree_)[seed]);
+    }
+    const auto worthIt = [&] { return std::sqrt(least) - kMissed * extent_; };
+    for (const auto& [atLeast, seed] : tree_->mayBeNearer(to, worthIt(), kMostMore)) {
+        const size_t own = seed;
+        const bool isKnown =
+            std::any_of(nearest.begin(), nearest.end(), [&](const auto& other) { return other.second == own; });
+        if (!isKnown && atLeast < worthIt()) {
+            descend((*tree_)[seed]);
+        }
+    }
+    if (!status) {
+        return status.error();
     }
     // Faces that meet at a point differ by rounding there.
-    const double most = std::sqrt(least) + tie_;
+    const double most = std::sqrt(least) + kTie * extent_;
     const Candidate* best = nullptr;
-    for (size_t k = 0; k < count; ++k) {
-        const Candidate& own = candidates[k];
+    for (const Candidate& own : candidates) {
         if (std::sqrt(own.found.distance) > most) {
             continue;
         }
@@ -353,12 +393,19 @@ Status findUvs(const CpuGroup& group, const SupplePointQuery& query, std::span<S
     return success();
 }
 
+/// Kinds that look at the cage alone.
+bool isOfFile(const SupplePointQuery& query) {
+    return query.kind == SUPPLE_FIND_UV || query.kind == SUPPLE_FIND_GLTF;
+}
+
 } // namespace
 
 Status findPoints(const std::shared_ptr<const CpuGroup>& group, std::shared_ptr<PointFinder>& kept,
                   const SupplePointQuery& query, std::span<SuppleSurfacePoint> out) {
-    if (query.kind == SUPPLE_FIND_UV) {
-        if (Status found = findUvs(*group, query, out); !found || query.jets == nullptr) {
+    if (isOfFile(query)) {
+        Status found = query.kind == SUPPLE_FIND_UV ? findUvs(*group, query, out)
+                                                    : findGltfPoints(*group, {query.gltf, query.count}, out);
+        if (!found || query.jets == nullptr) {
             return found;
         }
     }
@@ -381,7 +428,7 @@ Status findPoints(const std::shared_ptr<const CpuGroup>& group, std::shared_ptr<
     if (finder->pieces().empty()) {
         return Error{ErrorCode::argument, "the surfaces have no faces"};
     }
-    Status found = success(); // points of UV stand in out already
+    Status found = success(); // the points of other kinds stand in out already
     if (query.kind == SUPPLE_FIND_NEAREST) {
         found = finder->findNearest(query.values, out);
     } else if (query.kind == SUPPLE_FIND_RAY) {

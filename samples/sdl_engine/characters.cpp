@@ -34,6 +34,9 @@ CharacterGroup createGroup(const supple::Context& context, const supple::Asset& 
     must(created.group.info(created.info), "suppleGetGroupInfo");
     must(created.group.vertexStreams(created.streams), "suppleGetVertexStreams");
     must(created.group.gridOutput(created.grid), "suppleGetGridOutput");
+    SuppleSurfaceInfo surface{};
+    must(created.group.surfaceInfo(surface), "suppleGetSurfaceInfo");
+    created.patchesPerEdge = surface.patchesPerEdge;
     for (uint32_t i = 0; i < created.grid.drawRangeCount; ++i) {
         Look& look = created.looks.emplace_back();
         const uint32_t index = created.grid.drawRanges[i].material;

@@ -29,6 +29,7 @@ struct CharacterGroup {
     SuppleGroupInfo info{};
     SuppleVertexStreams streams{};
     SuppleGridOutput grid{};
+    uint32_t patchesPerEdge = 1;
     std::vector<Look> looks; ///< a draw range
 };
 
@@ -49,6 +50,7 @@ public:
     /// The graph's node: every barrier before and after it is the graph's.
     void addToGraph(Graph& graph, Resource buffers) const;
 
+    const supple::Context& context() const { return context_; }
     const std::array<CharacterGroup, 2>& groups() const { return groups_; }
     const std::vector<Footprint>& footprints() const { return footprints_; }
     /// Milliseconds of the device in Supple's passes, of the newest frame that is known.

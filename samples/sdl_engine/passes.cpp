@@ -93,6 +93,7 @@ Passes::Passes(Device& device, Graph& graph, const Characters& characters)
     scene.vertexShader = character_vert;
     scene.fragmentShader = character_frag;
     characterPipeline_ = must(createGraphicsPipeline(device, scene));
+    sticker_.emplace(device, characters, frameLayout, scene);
     scene.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
     scene.vertexShader = floor_vert;
     scene.fragmentShader = floor_frag;
@@ -195,6 +196,8 @@ void Passes::drawScene(VkCommandBuffer commands, uint32_t slot) const {
                    attachment(images_.depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kFar));
     drawCharacters(commands, characterPipeline_, slot, true);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+    sticker_->draw(commands, frameSets_[slot]);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &frameSets_[slot], 0, nullptr);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, floorPipeline_);
     vkCmdDraw(commands, 4, 1, 0, 0);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, backdropPipeline_);

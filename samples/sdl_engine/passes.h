@@ -4,6 +4,8 @@
 #include "camera.h"
 #include "characters.h"
 
+#include "sticker.h"
+
 #include "host/pipelines.h"
 
 namespace engine {
@@ -50,6 +52,7 @@ private:
     void drawScene(VkCommandBuffer commands, uint32_t slot) const;
 
     const Characters& characters_;
+    std::optional<Sticker> sticker_;
     Sun sun_;
     SceneImages images_;
     Image sunMap_;

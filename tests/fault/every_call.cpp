@@ -343,6 +343,9 @@ private:
         query.values = ray;
         query.jets = &jet;
         call("suppleFindPoints", [&] { return suppleFindPoints(handle(), groups_[0], &query, &nearest); });
+        query.kind = SUPPLE_FIND_GIVEN;
+        query.values = nullptr;
+        call("suppleFindPoints", [&] { return suppleFindPoints(handle(), groups_[0], &query, &nearest); });
         desc.group = groups_[1];
         call("suppleCreatePointSet", [&] { return suppleCreatePointSet(handle(), &desc, &set); });
         call("suppleDestroyPointSet", [&] { return suppleDestroyPointSet(handle(), set); });

@@ -2712,6 +2712,7 @@ void points(Rows& r) {
     static constexpr float kPlaces[] = {0, 0, 0, 1, 2, 3}, kBadPlaces[] = {0, 0, 0, 1, kNan, 3},
                            kRays[] = {0, 0, 5, 0, 0, -1, 0, 9, 0, 1, 0, 0},
                            kStandingRays[] = {0, 0, 5, 0, 0, -1, 0, 9, 0, 0, 0, 0};
+    static constexpr SuppleGltfPoint kTriangles[] = {{0, 0, 0, 0.5f, 0.25f}, {0, 0, 1u << 30, 0.0f, 0.0f}};
     const auto query = [](World&) {
         Query made{};
         made.structSize = sizeof(made);
@@ -2739,7 +2740,7 @@ void points(Rows& r) {
     };
     askedOtherwise("values null", SUPPLE_MESSAGE_NULL_POINTER, [](Query& q) { q.values = nullptr; });
     askedOtherwise("values NaN", SUPPLE_MESSAGE_NOT_FINITE, [](Query& q) { q.values = kBadPlaces; });
-    askedOtherwise("kind", kRange, [](Query& q) { q.kind = static_cast<SupplePointQueryKind>(4); });
+    askedOtherwise("kind", kRange, [](Query& q) { q.kind = static_cast<SupplePointQueryKind>(6); });
     askedOtherwise("a seed for NEAREST", kRange, [](Query& q) { q.seed = 1; });
     askedOtherwise("a UV set for NEAREST", kRange, [](Query& q) { q.uvSet = 1; });
     askedOtherwise("several points for NEAREST", kRange, [](Query& q) { q.pointsEach = 2; });
@@ -2751,6 +2752,15 @@ void points(Rows& r) {
     askedOtherwise("a ray without a direction", kRange, [](Query& q) {
         q.kind = SUPPLE_FIND_RAY;
         q.values = kStandingRays;
+    });
+    askedOtherwise("triangles for NEAREST", SUPPLE_MESSAGE_NULL_POINTER, [](Query& q) { q.gltf = kTriangles; });
+    askedOtherwise("no triangles for GLTF", SUPPLE_MESSAGE_NULL_POINTER, [](Query& q) {
+        q.kind = SUPPLE_FIND_GLTF;
+        q.values = nullptr;
+    });
+    askedOtherwise("no jets for GIVEN", SUPPLE_MESSAGE_NULL_POINTER, [](Query& q) {
+        q.kind = SUPPLE_FIND_GIVEN;
+        q.values = nullptr;
     });
     askedOtherwise("a cage of no vertices", SUPPLE_MESSAGE_NULL_POINTER, [](Query& q) { q.cage = kPlaces; });
 #if defined(SUPPLE_WITH_CPU)
@@ -2765,6 +2775,19 @@ void points(Rows& r) {
         given.values = kRays;
         given.jets = w.plain<SuppleSurfaceJet>(2);
         return find(w, &given);
+    });
+    r.accept(kFind, "GIVEN", [=](World& w) {
+        Query given = query(w);
+        given.kind = SUPPLE_FIND_GIVEN;
+        given.values = nullptr;
+        given.jets = w.plain<SuppleSurfaceJet>(2);
+        SuppleSurfacePoint points[2]{};
+        return suppleFindPoints(w.handle(), w.spare.group, &given, points);
+    });
+    askedOtherwise("a triangle that there is not", kRange, [](Query& q) {
+        q.kind = SUPPLE_FIND_GLTF;
+        q.values = nullptr;
+        q.gltf = kTriangles;
     });
     r.accept(kFind, "SCATTER", [=](World& w) {
         Query given = query(w);

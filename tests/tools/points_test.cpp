@@ -51,7 +51,28 @@ TEST_F(Points, WritesFramesOfTheSurface) {
     }
 }
 
+/// Where the file has the triangle's vertices; both triangles of a quad have the same diagonal.
+TEST_F(Points, AreThoseOfTriangles) {
+    const Outcome outcome =
+        points(R"([{"mesh":0,"primitive":0,"triangle":0,"weights":[0,0.5,0.5]},{"face":3,"u":0.25,"v":0.5},)"
+               R"({"mesh":0,"primitive":0,"triangle":1,"weights":[0.5,0.5,0],"tangent":[0,1,0]}])",
+               "--scheme cage");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const json frames = json::parse(readText(file("frames.json")));
+    ASSERT_EQ(frames.size(), 3u);
+    EXPECT_EQ(frames[1]["face"], 3);
+    for (const json& frame : {frames[0], frames[2]}) {
+        EXPECT_TRUE(frame["u"] == 0.5 || frame["v"] == 0.5) << frame;
+        EXPECT_NEAR(dotOf(frame["normal"], frame["normal"]), 1.0, 1e-6);
+    }
+}
+
 TEST_F(Points, SaysWhatIsWrongWithThem) {
+    expectFailure(points(R"([{"mesh":0,"primitive":0,"triangle":0,"weights":[0.5,0.6,0.5]}])"), 1,
+                  "point 0: needs mesh, primitive, triangle and weights that add up to 1");
+    expectFailure(points(R"([{"mesh":0,"triangle":0,"weights":[1,0,0]}])"), 1, "point 0: needs mesh, primitive");
+    expectFailure(points(R"([{"mesh":7,"primitive":0,"triangle":0,"weights":[1,0,0]}])"), 1,
+                  "point 0: the character has no mesh 7 primitive 0 triangle 0");
     expectFailure(points("{}"), 1, "points.json: is no JSON list of points");
     expectFailure(points("[]"), 1, "points.json: has no points");
     expectFailure(points(R"([{"face":3,"u":0.5}])"), 1, "points.json: point 0: needs face, u and v");

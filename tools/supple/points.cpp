@@ -7,7 +7,9 @@
 #include "tools/supple/text_file.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <glm/glm.hpp>
@@ -34,6 +36,9 @@ struct PointsOptions {
 /// What the file of points says.
 struct GivenPoints {
     std::vector<SuppleSurfacePoint> points;
+    /// Those that are of triangles of the file, by their numbers among `points`, where they are put once they are
+    /// found.
+    std::vector<std::pair<size_t, SuppleGltfPoint>> gltf;
     std::vector<float> tangents; ///< three a point; zeros where the file has none
 };
 
@@ -44,9 +49,50 @@ std::optional<uint32_t> wholeNumber(const PointsJson& value) {
                : std::nullopt;
 }
 
+/// Keeps a point with its tangent, if it has one. The fault, or an empty text.
+std::string takeTangent(const PointsJson& entry, const SuppleSurfacePoint& point, GivenPoints& out) {
+    std::array<float, 3> tangent{};
+    if (entry.contains("tangent")) {
+        const PointsJson& given = entry["tangent"];
+        if (!given.is_array() || given.size() != 3 || !given[0].is_number() || !given[1].is_number() ||
+            !given[2].is_number()) {
+            return "tangent is not three numbers";
+        }
+        tangent = {given[0].get<float>(), given[1].get<float>(), given[2].get<float>()};
+    }
+    out.points.push_back(point);
+    out.tangents.insert(out.tangents.end(), tangent.begin(), tangent.end());
+    return {};
+}
+
+/// The point of a triangle; nothing if the entry does not say it whole, or its weights do not add up to 1.
+std::optional<SuppleGltfPoint> gltfPoint(const PointsJson& entry) {
+    const auto number = [&](const char* key) { return entry.contains(key) ? wholeNumber(entry[key]) : std::nullopt; };
+    const std::optional<uint32_t> mesh = number("mesh"), primitive = number("primitive"), triangle = number("triangle");
+    const auto isWeight = [](const PointsJson& value) { return value.is_number(); };
+    if (!mesh || !primitive || !triangle || !entry.contains("weights") || !entry["weights"].is_array() ||
+        entry["weights"].size() != 3 || !std::all_of(entry["weights"].begin(), entry["weights"].end(), isWeight)) {
+        return std::nullopt;
+    }
+    const auto weights = entry["weights"].get<std::array<float, 3>>();
+    if (!(std::abs(weights[0] + weights[1] + weights[2] - 1.0f) < 1e-3f)) {
+        return std::nullopt;
+    }
+    return SuppleGltfPoint{*mesh, *primitive, *triangle, weights[1], weights[2]};
+}
+
 /// The fault of one entry, or an empty text.
 std::string takePoint(const PointsJson& entry, const cage::Character& character, GivenPoints& out) {
     const auto has = [&](const char* key) { return entry.is_object() && entry.contains(key); };
+    if (has("triangle")) {
+        const std::optional<SuppleGltfPoint> point = gltfPoint(entry);
+        if (!point) {
+            return "needs mesh, primitive, triangle and weights that add up to 1: "
+                   R"({"mesh":0,"primitive":0,"triangle":7,"weights":[0.2,0.3,0.5]})";
+        }
+        out.gltf.emplace_back(out.points.size(), *point);
+        return takeTangent(entry, SuppleSurfacePoint{}, out);
+    }
     const std::optional<uint32_t> face = has("face") ? wholeNumber(entry["face"]) : std::nullopt;
     if (!face || !has("u") || !has("v") || !entry["u"].is_number() || !entry["v"].is_number()) {
         return "needs face, u and v: {\"part\":0,\"face\":12,\"u\":0.5,\"v\":0.25}";
@@ -71,18 +117,7 @@ std::string takePoint(const PointsJson& entry, const cage::Character& character,
                    std::to_string(of.firstFace) + " to " + std::to_string(cage::endFace(character, *part) - 1);
         }
     }
-    std::array<float, 3> tangent{};
-    if (has("tangent")) {
-        const PointsJson& given = entry["tangent"];
-        if (!given.is_array() || given.size() != 3 || !given[0].is_number() || !given[1].is_number() ||
-            !given[2].is_number()) {
-            return "tangent is not three numbers";
-        }
-        tangent = {given[0].get<float>(), given[1].get<float>(), given[2].get<float>()};
-    }
-    out.points.push_back(point);
-    out.tangents.insert(out.tangents.end(), tangent.begin(), tangent.end());
-    return {};
+    return takeTangent(entry, point, out);
 }
 
 Result<GivenPoints> readPoints(const std::string& path, const cage::Character& character) {
@@ -106,6 +141,29 @@ Result<GivenPoints> readPoints(const std::string& path, const cage::Character& c
         }
     }
     return points;
+}
+
+/// Puts the points of the file's triangles among the others.
+Status findGltf(host::Context& context, SuppleGroup group, GivenPoints& given) {
+    std::vector<SuppleGltfPoint> asked;
+    for (const auto& [number, point] : given.gltf) {
+        asked.push_back(point);
+    }
+    std::vector<SuppleSurfacePoint> found(asked.size());
+    SupplePointQuery query{};
+    query.structSize = sizeof query;
+    query.kind = SUPPLE_FIND_GLTF;
+    query.count = static_cast<uint32_t>(asked.size());
+    query.gltf = asked.data();
+    Status status = context.check(suppleFindPoints(context.handle(), group, &query, found.data()), "suppleFindPoints");
+    for (size_t k = 0; k < found.size() && status; ++k) {
+        if (found[k].face == SUPPLE_NO_FACE) {
+            return Error{ErrorCode::argument,
+                         "point " + std::to_string(given.gltf[k].first) + ": no face has the triangle"};
+        }
+        given.points[given.gltf[k].first] = found[k];
+    }
+    return status;
 }
 
 /// The sets that a group gets for the frame.
@@ -172,15 +230,17 @@ Status writePoints(const std::string& path, const GivenPoints& given, const std:
 }
 
 Status evaluatePoints(Session& session, const host::CharacterFile& file, const PointsOptions& options, const Pose& pose,
-                      const GivenPoints& given) {
+                      GivenPoints given) {
     const Result<SuppleAsset> asset = host::createAsset(*session.context, file);
     if (!asset) {
         return asset.error();
     }
     PointSets sets;
     const Result<Evaluation> evaluated =
-        evaluate(session, *asset, file.character, options.surface, pose, 0,
-                 [&](SuppleGroup group) { return sets.create(*session.context, group, given); });
+        evaluate(session, *asset, file.character, options.surface, pose, 0, [&](SuppleGroup group) {
+            Status found = given.gltf.empty() ? success() : findGltf(*session.context, group, given);
+            return found ? sets.create(*session.context, group, given) : found;
+        });
     if (!evaluated) {
         return evaluated.error();
     }
@@ -218,7 +278,9 @@ void bindPoints(CLI::App& app, int& exitCode) {
         ->add_option(
             "--points", options->points,
             "JSON list of points: {\"part\":name or index,\"face\":source face,\"u\":..,\"v\":..}; with faces of "
-            "five and more sides also \"side\"; \"tangent\":[x,y,z] of the bind pose on request")
+            "five and more sides also \"side\"; of a glTF file also "
+            "{\"mesh\":..,\"primitive\":..,\"triangle\":..,\"weights\":[..]}; \"tangent\":[x,y,z] of the bind pose on "
+            "request")
         ->required()
         ->type_name("P.json");
     command->add_option("-o,--output", options->output, "JSON: position, normal, tangent, bitangent, du, dv, area")

@@ -87,6 +87,7 @@ private:
     [[nodiscard]] bool remembers() const { return options_.frames == 0; }
     void remember(const std::string& path);
     [[nodiscard]] Status fitTarget();
+    [[nodiscard]] Status attachPicked();
     [[nodiscard]] Status fulfil(const PanelWishes& wishes);
     [[nodiscard]] Status drawFrame(const host::WindowFrame& frame, bool readBack);
     /// Shows what is being done while the window does not answer: over the last picture, or over nothing.
@@ -335,6 +336,16 @@ void Viewer::remember(const std::string& path) {
     panel_->recent = readRecentFiles(recentFilesPath());
 }
 
+/// What clicks attach, where the last one met the surface.
+Status Viewer::attachPicked() {
+    if (!panel_->picked || stage_->settings.prop == Prop::none)
+        return success();
+    const Status attached = stage_->attach({stage_->settings.prop, panel_->picked->point});
+    if (attached)
+        panel_->message.clear();
+    return attached;
+}
+
 Status Viewer::fulfil(const PanelWishes& wishes) {
     if (wishes.file) {
         if (const Status status = show(*wishes.file); !status)
@@ -348,6 +359,12 @@ Status Viewer::fulfil(const PanelWishes& wishes) {
         if (!picked)
             return picked.error();
         panel_->picked = std::move(*picked);
+        if (const Status attached = attachPicked(); !attached)
+            return attached.error();
+    }
+    if (wishes.takeOff) {
+        if (const Status status = stage_->takeOff(context_->lastFrame()); !status)
+            return status.error();
     }
     if (wishes.save) {
         export_.start(*stage_, options_.draw, *wishes.save);

@@ -11,7 +11,7 @@ inline constexpr ViewKey kViewKeys[] = {
     {"drag", "turn"},
     {"right drag, Shift + drag", "move"},
     {"wheel", "closer, farther"},
-    {"click", "what the surface is there: its part, face and joints"},
+    {"click", "what the surface is there: its part, face and joints; or attach a lantern, an arrow, a sticker"},
     {"F", "the whole figure"},
     {"Space", "play, pause"},
     {"1 2 3 4 5", "shaded, wire, patches, normals, zebra"},

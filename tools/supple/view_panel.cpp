@@ -659,7 +659,7 @@ PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect) {
     buildKeys(stage);
     buildMessage(state);
     if (stage.hasFigure()) {
-        buildPick(stage, aspect, state.picked);
+        wishes.takeOff = buildPick(stage, aspect, state.picked);
         moveCamera(stage);
         wishes.pick = clickedPlace();
     }

@@ -44,6 +44,7 @@ struct PanelWishes {
     bool tune = false; ///< as the settings say
     std::optional<ExportWish> save;
     std::optional<glm::vec2> pick; ///< a place in the picture
+    bool takeOff = false;          ///< what was attached last
     bool windowPicture = false;    ///< of the next frame, panel and all
     bool close = false;
 };

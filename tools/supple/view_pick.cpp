@@ -89,6 +89,19 @@ void buildLines(const ViewStage& stage, const ViewPick& pick) {
     }
 }
 
+/// What clicks attach. Returns whether the last one is to be taken off.
+bool buildProps(ViewStage& stage) {
+    ImGui::Separator();
+    ImGui::TextUnformatted("a click attaches");
+    int chosen = static_cast<int>(stage.settings.prop);
+    static constexpr const char* kNames[] = {"nothing", "a lantern", "an arrow", "a sticker"};
+    for (int prop = 0; prop < 4; ++prop) {
+        ImGui::RadioButton(kNames[prop], &chosen, prop);
+    }
+    stage.settings.prop = static_cast<Prop>(chosen);
+    return !stage.attached().empty() && ImGui::Button("take the last one off");
+}
+
 void drawMarker(const ViewStage& stage, float aspect, const ViewPick& pick) {
     const glm::vec4 at =
         stage.camera().projection(aspect, 1.0f) * stage.camera().view() * glm::vec4(pick.position, 1.0f);
@@ -162,28 +175,30 @@ std::optional<glm::vec2> clickedPlace() {
                : std::nullopt;
 }
 
-void buildPick(const ViewStage& stage, float aspect, std::optional<ViewPick>& pick) {
+bool buildPick(ViewStage& stage, float aspect, std::optional<ViewPick>& pick) {
     if (pick && pick->version != stage.shown().version) {
         pick.reset();
     }
     if (!pick) {
-        return;
+        return false;
     }
     if (pick->clip == stage.settings.clip && pick->time == stage.settings.time) {
         drawMarker(stage, aspect, *pick);
     }
-    bool open = true;
+    bool open = true, takeOff = false;
     ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - 16.0f, 16.0f), ImGuiCond_Appearing,
                             ImVec2(1.0f, 0.0f));
     if (ImGui::Begin("picked", &open,
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                          ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoCollapse)) {
         buildLines(stage, *pick);
+        takeOff = buildProps(stage);
     }
     ImGui::End();
     if (!open) {
         pick.reset();
     }
+    return takeOff;
 }
 
 } // namespace supple::tools

@@ -31,8 +31,8 @@ struct ViewPick {
 /// The place of a click that does not turn the camera and that the panel does not want.
 [[nodiscard]] std::optional<glm::vec2> clickedPlace();
 
-/// A window that says what was met, and a marker there. Empties the pick if the window is closed or the figure is
-/// another one.
-void buildPick(const ViewStage& stage, float aspect, std::optional<ViewPick>& pick);
+/// A window that says what was met and what clicks attach, and a marker there. Empties the pick if the window is closed
+/// or the figure is another one. Returns whether what was attached last is to be taken off.
+[[nodiscard]] bool buildPick(ViewStage& stage, float aspect, std::optional<ViewPick>& pick);
 
 } // namespace supple::tools

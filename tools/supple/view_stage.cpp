@@ -99,6 +99,8 @@ Status ViewStage::open(const std::string& file, const std::string& clip, float a
 
     retired_.clear();
     ++version_;
+    attachments_.reset();
+    attached_.clear();
     binding_ = std::move(*binding);
     group_ = std::move(*group);
     playback_.forget();
@@ -190,15 +192,57 @@ Status ViewStage::remakeGroup(uint32_t rate, uint64_t lastFrame) {
     Result<host::FigureBinding> binding = renderer_.bind(**group);
     if (!binding)
         return binding.error();
+    Result<std::unique_ptr<host::Attachments>> attachments = createAttachments(**group);
+    if (!attachments)
+        return attachments.error();
     ++version_;
     group_->release();
-    retired_.push_back({lastFrame, nullptr, std::move(group_), std::move(binding_)});
+    retired_.push_back({lastFrame, nullptr, std::move(group_), std::move(binding_), std::move(attachments_)});
+    attachments_ = std::move(*attachments);
     group_ = std::move(*group);
     binding_ = std::move(*binding);
     playback_.forget();
     // At levels a rate counts for some schemes only, and then it is the largest.
     settings.rate = static_cast<int>(group_->hasLevels() ? rate : group_->edgeRate());
     return readPartShares();
+}
+
+Result<std::unique_ptr<host::Attachments>> ViewStage::createAttachments(const host::FigureGroup& group) const {
+    if (attached_.empty())
+        return std::unique_ptr<host::Attachments>();
+    Result<std::unique_ptr<host::Attachments>> made = renderer_.createAttachments(group);
+    for (size_t k = 0; made && k < attached_.size(); ++k) {
+        if (const Status status = tools::attach(**made, attached_[k], extent_.bounds.radius()); !status)
+            return status.error();
+    }
+    return made;
+}
+
+Status ViewStage::attach(const AttachedProp& what) {
+    if (attachments_ == nullptr) {
+        Result<std::unique_ptr<host::Attachments>> made = renderer_.createAttachments(*group_);
+        if (!made)
+            return made.error();
+        attachments_ = std::move(*made);
+    }
+    const Status added = tools::attach(*attachments_, what, extent_.bounds.radius());
+    if (added)
+        attached_.push_back(what);
+    ++attachedChanges_;
+    return added;
+}
+
+Status ViewStage::takeOff(uint64_t lastFrame) {
+    if (attached_.empty())
+        return success();
+    attached_.pop_back();
+    ++attachedChanges_;
+    Result<std::unique_ptr<host::Attachments>> rest = createAttachments(*group_);
+    if (!rest)
+        return rest.error();
+    retired_.push_back({lastFrame, nullptr, nullptr, {}, std::move(attachments_)});
+    attachments_ = std::move(*rest);
+    return success();
 }
 
 float ViewStage::morphWeight(const host::NamedTargets& morph) const {
@@ -311,10 +355,11 @@ Status ViewStage::evaluate(VkCommandBuffer commands, uint64_t frame, uint64_t co
 }
 
 ViewStage::Shown ViewStage::shown() const {
-    Shown shown{settings, camera_, levelCamera_, version_, shownValues_};
+    Shown shown{settings, camera_, levelCamera_, version_, shownValues_, attachedChanges_};
     // What is drawn over the picture changes nothing of it.
     shown.settings.panel = shown.settings.keys = shown.settings.joints = false;
     shown.settings.soft = {};
+    shown.settings.prop = Prop::none;
     shown.settings.timingsPaused = shown.settings.timingsByPart = false;
     shown.settings.budgetMs = 0.0f;
     return shown;
@@ -512,6 +557,7 @@ host::Scene ViewStage::scene(VkExtent2D extent) const {
     }
     scene.group = group_.get();
     scene.binding = &binding_;
+    scene.attachments = attachments_.get();
     scene.camera = camera_;
     scene.bounds = extent_.bounds;
     if (settings.ground)

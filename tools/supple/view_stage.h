@@ -9,6 +9,7 @@
 #include "tools/supple/time_history.h"
 #include "tools/supple/view_look.h"
 #include "tools/supple/view_playback.h"
+#include "tools/supple/view_props.h"
 
 #include <cstdint>
 #include <future>
@@ -44,8 +45,9 @@ struct ViewSettings {
     float chordError = kChordError; ///< with levels: pixels
     bool ground = true;
     Look look = Look::studio;
-    bool panel = true; ///< shown
-    bool keys = false; ///< the help window
+    Prop prop = Prop::none; ///< what a click attaches
+    bool panel = true;      ///< shown
+    bool keys = false;      ///< the help window
     bool timingsPaused = false;
     bool timingsByPart = false;
     float budgetMs = 0.0f; ///< of the passes together, a line in their graph; 0: none
@@ -97,6 +99,13 @@ public:
     /// Lets go of what the completed frames used.
     void retire(uint64_t completedFrame);
 
+    /// Puts something onto the surface. It stays there with all schemes and rates, until another file is opened. Waits
+    /// for the device.
+    [[nodiscard]] Status attach(const AttachedProp& what);
+    /// Takes off what was attached last.
+    [[nodiscard]] Status takeOff(uint64_t lastFrame);
+    [[nodiscard]] const std::vector<AttachedProp>& attached() const { return attached_; }
+
     void advance(double seconds);
     /// The share of the picture, from the left, that a panel covers: figures are framed beside it.
     void setCovered(float share) { covered_ = share; }
@@ -119,8 +128,9 @@ public:
         ViewSettings settings;
         host::Camera camera;
         host::Camera levelCamera;
-        uint32_t version = 0; ///< of the group
-        uint32_t values = 0;  ///< counts measurements
+        uint32_t version = 0;  ///< of the group
+        uint32_t values = 0;   ///< counts measurements
+        uint32_t attached = 0; ///< counts what was attached and taken off
         bool operator==(const Shown&) const = default;
     };
     [[nodiscard]] Shown shown() const;
@@ -160,12 +170,15 @@ private:
         std::unique_ptr<host::Figure> figure; ///< the group's, if it goes too
         std::unique_ptr<host::FigureGroup> group;
         host::FigureBinding binding;
+        std::unique_ptr<host::Attachments> attachments;
     };
 
     ViewStage(host::Context& context, host::SurfaceRenderer& renderer) : context_(context), renderer_(renderer) {}
     [[nodiscard]] Result<std::unique_ptr<host::FigureGroup>> createGroup(host::Figure& figure, uint32_t rate,
                                                                          bool levels, bool plays) const;
     [[nodiscard]] Status remakeGroup(uint32_t rate, uint64_t lastFrame);
+    /// All of attached_, on another group; none: null.
+    [[nodiscard]] Result<std::unique_ptr<host::Attachments>> createAttachments(const host::FigureGroup& group) const;
     /// Of the clip that plays.
     [[nodiscard]] Extent reach() const;
     void readTimings();
@@ -219,6 +232,9 @@ private:
     std::vector<host::NamedTargets> morphs_;
     std::unique_ptr<host::FigureGroup> group_;
     host::FigureBinding binding_;
+    std::vector<AttachedProp> attached_;
+    uint32_t attachedChanges_ = 0;
+    std::unique_ptr<host::Attachments> attachments_;   ///< of the group; null: none
     uint32_t version_ = 0;                             ///< counts groups
     uint32_t recordedVersion_ = 0;                     ///< of the group that a frame was recorded of
     Values values_;                                    ///< that the group has, or that are being measured

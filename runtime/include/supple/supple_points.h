@@ -36,6 +36,19 @@ typedef struct SuppleSurfacePoint {
     float b; /**< see a */
 } SuppleSurfacePoint;
 
+/** A point of a triangle of a glTF file, as scanners, painters and physics name it. Of a quad's two triangles both give
+ * points of the quad: those that the triangle has in the quad's own square, so its diagonal is the same curve from
+ * both. */
+typedef struct SuppleGltfPoint {
+    uint32_t mesh;      /**< as the file numbers them */
+    uint32_t primitive; /**< within the mesh */
+    /** Within the primitive: the indices 3 * triangle and the two behind it. Triangles of strips and fans are counted
+     * in their order, those of strips that repeat a vertex not at all. */
+    uint32_t triangle;
+    float a; /**< the weight of the triangle's second vertex, 0..1 */
+    float b; /**< that of its third; a + b is at most 1 */
+} SuppleGltfPoint;
+
 /** What the surface is at a point. The derivatives are those by a and b of the point: du by a, dv by b, then the second
  * ones. du x dv points outwards. Where a scheme cuts a face, they jump inside it (docs/cpu.md). */
 typedef struct SuppleSurfaceJet {
@@ -130,6 +143,12 @@ typedef enum SupplePointQueryKind {
     /** What each ray hits first, from either side: origin and direction, x, y, z each, in the coordinates of the cage.
      * A direction need not have a length of 1. If a ray hits nothing, its face is SUPPLE_NO_FACE. */
     SUPPLE_FIND_RAY = 3,
+    /** The points of triangles of the glTF file (query->gltf). A triangle that no face has, as reading has left it out
+     * or a repair has cut its face, has SUPPLE_NO_FACE. If several nodes carry the mesh, it is that of the first part.
+     */
+    SUPPLE_FIND_GLTF = 4,
+    /** None: out has the points, and jets are filled with what the surface is there. */
+    SUPPLE_FIND_GIVEN = 5,
     SUPPLE_FIND_MAX_ENUM = 0x7FFFFFFF
 } SupplePointQueryKind;
 
@@ -137,13 +156,12 @@ typedef enum SupplePointQueryKind {
 typedef struct SupplePointQuery {
     uint32_t structSize;
     SupplePointQueryKind kind; /**< by what */
-    uint32_t count;            /**< of places, texture coordinates or rays; SCATTER: of points to find */
+    uint32_t count;            /**< of places, texture coordinates, rays or points */
     uint32_t uvSet;            /**< UV: 0 or 1, as in the file. Else 0 */
     uint32_t seed;             /**< SCATTER: another one gives other points. Else 0 */
     uint32_t cageVertexCount;  /**< of cage; 0 without one */
-    const float* values;       /**< NEAREST: 3 for each point; UV: 2; RAY: 6. SCATTER: null */
-    /** Optional, NEAREST, SCATTER and RAY: x, y, z of the character's cage vertices, deformed. Null: the bind pose. UV
-     * takes none. */
+    const float* values;       /**< NEAREST: 3 for each point; UV: 2; RAY: 6. Others: null */
+    /** Optional, but for UV and GLTF: x, y, z of the character's cage vertices, deformed. Null: the bind pose. */
     const float* cage;
     /** UV: how many points are listed for each coordinate. They are those of the lowest faces that cover it, one for
      * each face, in rising order; the rest have SUPPLE_NO_FACE. 0 means 1. Else 0 */
@@ -152,6 +170,7 @@ typedef struct SupplePointQuery {
     /** Optional: filled with what the surface is at each point of out, in the cage that is searched. Zeros where the
      * face is SUPPLE_NO_FACE. A ray o + t d has hit at t = dot(position - o, d) / dot(d, d). */
     SuppleSurfaceJet* jets;
+    const SuppleGltfPoint* gltf; /**< GLTF: count of them. Else null */
 } SupplePointQuery;
 
 /** Finds points on the surfaces of a group, on the CPU: for a set, or to be kept in a file. No device is waited for.
@@ -159,14 +178,15 @@ typedef struct SupplePointQuery {
  * out: query->count points, with UV pointsEach times as many; null if there are none. Like a first set, the first call
  * for a group makes its surfaces. NEAREST begins from samples: 16 a triangle or quad; of a larger face 16 a side up to
  * 8 sides, 4 up to 32, one beyond. RAY begins from triangles between as many samples, at least 4 a side. The first
- * call in the bind pose makes and keeps them (50 bytes a sample, for RAY 400 bytes a quad); with a cage each call makes
+ * call in the bind pose makes and keeps them (80 bytes a sample, for RAY 400 bytes a quad); with a cage each call makes
  * its own. Then a point takes about 0.1 ms. UV and SCATTER go over all faces once in each call. The result is the same
  * on every machine up to rounding. If a ray grazes a face and meets it twice, the farther of the two points may be
  * found: less than 4 in 1000 rays are wrong where a third of them graze.
  *
  * Errors: a stale handle; numbers that are not finite or beyond SUPPLE_MAX_COORDINATE; a direction without a length; a
- * cage of another number of vertices; a UV set that the character lacks; more points than 32 bits number; what
- * suppleCreatePointSet refuses of a group. */
+ * cage of another number of vertices; a UV set that the character lacks; a character that is of no glTF file, a mesh, a
+ * primitive or a triangle that it lacks, weights outside of the triangle; GIVEN without jets, or points that
+ * suppleCreatePointSet refuses; more points than 32 bits number; what suppleCreatePointSet refuses of a group. */
 SUPPLE_API SuppleResult suppleFindPoints(SuppleContext context, SuppleGroup group, const SupplePointQuery* query,
                                          SuppleSurfacePoint* out);
 

@@ -76,5 +76,21 @@ float skyVisibility(vec3 position) {
 
 vec3 skyLight(vec3 n) { return mix(kSkyBelow, kSkyAbove, 0.5 + 0.5 * n.y); }
 
+/// What a place of a character sends to the eye.
+vec3 lit(Material material, vec3 position, vec3 n) {
+    vec3 v = normalize(frame.eye.xyz - position);
+    vec3 l = frame.sunDirection.xyz;
+    float nl = max(dot(n, l), 0.0);
+    float sun = nl > 0.0 ? sunVisibility(position, n, gl_FragCoord.xy) : 0.0;
+    // Light from the floor, and less sky near it.
+    float near = mix(0.55, 1.0, clamp(position.y * 1.4, 0.0, 1.0));
+    vec3 sunLight = kSun * (sun / kPi * 1.6); // radiance of a white surface that faces it
+    vec3 diffuse = sunLight * nl + skyLight(n) * mix(near, 1.0, 0.5 + 0.5 * n.y) * 0.75;
+    vec3 f0 = mirrorColor(material);
+    vec3 share = mirroredShare(f0, material.roughness, clamp(dot(n, v), 1e-3, 1.0));
+    vec3 mirrored = sunLight * mirroredLight(n, v, l, material.roughness, f0) + share * skyLight(reflect(-v, n)) * near;
+    return material.albedo * (1.0 - material.metallic) * (1.0 - share) * diffuse + mirrored;
+}
+
 /// Motion in texture coordinates: where it is, less where it was.
 vec2 motion(vec4 now, vec4 before) { return 0.5 * (now.xy / now.w - before.xy / before.w); }
