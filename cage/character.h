@@ -78,7 +78,7 @@ struct Cage {
     std::vector<glm::vec2> cornerFaceUvs;
     std::vector<uint32_t> sourceVertices; ///< one per cage vertex: first POSITION element it came from (weld order)
     /// glTF files: the triangles of the file, three corners of one face each, or kNone three times where no face has
-    /// them. Else empty.
+    /// them. Else empty, also in cooked files.
     std::vector<uint32_t> sourceTriangles;
     std::vector<SourcePrimitive> sourcePrimitives; ///< in the order of their triangles
     std::vector<Crease> creases;                   ///< at most one an edge

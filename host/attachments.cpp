@@ -85,7 +85,7 @@ Status Attachments::addDecal(const DecalDesc& desc, const DecalLook& look) {
     entry.decal = &decals_.emplace_back(std::move(*decal));
     const Decal& own = decals_.back();
     const Status added = add(std::move(entry), own.points, own.tangents, verticesOf(own), look);
-    if (!added && (all_.empty() || all_.back().decal != &own))
+    if (!added)
         decals_.pop_back();
     return added;
 }
@@ -122,7 +122,10 @@ Status Attachments::add(Entry entry, std::span<const SuppleSurfacePoint> points,
         context.check(suppleGetPointOutput(context.handle(), entry.points, &output), "suppleGetPointOutput");
     if (written)
         written = write(entry, output);
-    all_.push_back(std::move(entry));
+    if (written)
+        all_.push_back(std::move(entry));
+    else
+        suppleDestroyPointSet(context.handle(), entry.points);
     return written;
 }
 

@@ -274,12 +274,12 @@ void fillTriangles(const Mesh& mesh, const Faces& faces, const Welding& welding,
 /// Finds the faces that have a primitive's triangles.
 class TriangleFinder {
 public:
-    TriangleFinder(const Faces& faces, size_t primitive, const Welding& welding) : faces_(faces), welding_(welding) {
-        for (uint32_t f = 0; f < faces.primitives.size(); ++f) {
+    TriangleFinder(const Faces& faces, size_t primitive, const Welding& welding) : welding_(welding) {
+        const auto [first, end] = std::equal_range(faces.primitives.begin(), faces.primitives.end(), primitive);
+        const auto numberOf = [&](auto place) { return static_cast<uint32_t>(place - faces.primitives.begin()); };
+        for (uint32_t f = numberOf(first); f < numberOf(end); ++f) {
             for (uint32_t c = faces.polygons.starts[f]; c < faces.polygons.starts[f + 1]; ++c) {
-                if (faces.primitives[f] == primitive) {
-                    corners_.push_back({welding.roots[faces.polygons.vertices[c]], f, c});
-                }
+                corners_.push_back({welding.roots[faces.polygons.vertices[c]], f, c});
             }
         }
         std::sort(corners_.begin(), corners_.end());
@@ -327,7 +327,6 @@ private:
         return c[0] != kNone && c[1] != kNone && c[2] != kNone && rises == 2;
     }
 
-    const Faces& faces_;
     const Welding& welding_;
     std::vector<Corner> corners_;
 };

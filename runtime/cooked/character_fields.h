@@ -48,13 +48,8 @@ template <class A, Is<Cage> T>
 void fields(A& a, T& cage) {
     a(cage.positions, cage.faceStarts, cage.faceVertices, cage.cornerUvs, cage.cornerUvs1, cage.cornerColors,
       cage.cornerNormals, cage.cornerTangents, cage.faceTriangles, cage.faceMaterials, cage.faceParts,
-      cage.faceTrimTiles, cage.cornerFaceUvs, cage.sourceVertices, cage.sourceTriangles,
-      cage.sourcePrimitives, cage.creases, cage.creaseSets, cage.sharpVertices,
+      cage.faceTrimTiles, cage.cornerFaceUvs, cage.sourceVertices, cage.creases, cage.creaseSets, cage.sharpVertices,
       cage.creaseScalars, cage.roundCorners, cage.holes);
-}
-template <class A, Is<SourcePrimitive> T>
-void fields(A& a, T& source) {
-    a(source.mesh, source.primitive, source.firstTriangle);
 }
 template <class A, Is<Node> T>
 void fields(A& a, T& node) {

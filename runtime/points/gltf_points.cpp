@@ -56,8 +56,9 @@ SuppleSurfacePoint placeIn(uint32_t face, uint32_t sides, const std::array<uint3
         at += weights[k] * (sides == 3 ? triangle : sides == 4 ? square : onCircle(c, sides));
     }
     if (sides <= 4) {
-        at = glm::clamp(at, 0.0, 1.0);
-        return {face, 0, static_cast<float>(at.x), static_cast<float>(at.y)};
+        const auto a = static_cast<float>(std::clamp(at.x, 0.0, 1.0)),
+                   b = static_cast<float>(std::clamp(at.y, 0.0, 1.0));
+        return {face, 0, a, sides == 3 ? std::min(b, 1.0f - a) : b};
     }
     const double turn = std::atan2(at.y, at.x) / (2.0 * std::numbers::pi);
     const auto side = std::min(static_cast<uint32_t>((turn < 0.0 ? turn + 1.0 : turn) * sides), sides - 1);
@@ -107,7 +108,7 @@ Status findGltfPoints(const CpuGroup& group, std::span<const SuppleGltfPoint> po
                       std::span<SuppleSurfacePoint> out) {
     const cage::Cage& cage = group.cage();
     if (cage.sourcePrimitives.empty()) {
-        return Error{ErrorCode::range, "the character is of no glTF file"};
+        return Error{ErrorCode::range, "the character was read from no glTF file, so it has no triangles of one"};
     }
     const std::vector<TriangleRun> runs = runsOf(cage);
     for (size_t k = 0; k < points.size(); ++k) {

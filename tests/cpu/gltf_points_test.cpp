@@ -139,7 +139,7 @@ TEST(GltfPoints, SayWhatTheFileLacks) {
     quad.faceStarts = {0, 4};
     quad.faceVertices = {0, 1, 2, 3};
     EXPECT_EQ(refusalOf(surfacesOf(quad, SUPPLE_SCHEME_CAGE), {0, 0, 0, 0.0f, 0.0f}),
-              "the character is of no glTF file");
+              "the character was read from no glTF file, so it has no triangles of one");
 }
 
 /// Points that are given get what the surface is there.

@@ -184,9 +184,10 @@ typedef struct SupplePointQuery {
  * found: less than 4 in 1000 rays are wrong where a third of them graze.
  *
  * Errors: a stale handle; numbers that are not finite or beyond SUPPLE_MAX_COORDINATE; a direction without a length; a
- * cage of another number of vertices; a UV set that the character lacks; a character that is of no glTF file, a mesh, a
- * primitive or a triangle that it lacks, weights outside of the triangle; GIVEN without jets, or points that
- * suppleCreatePointSet refuses; more points than 32 bits number; what suppleCreatePointSet refuses of a group. */
+ * cage of another number of vertices; a UV set that the character lacks; a character that was read from no glTF file (a
+ * cooked one is none), a mesh, a primitive or a triangle that it lacks, weights outside of the triangle; GIVEN without
+ * jets, or points that suppleCreatePointSet refuses; more points than 32 bits number; what suppleCreatePointSet refuses
+ * of a group. */
 SUPPLE_API SuppleResult suppleFindPoints(SuppleContext context, SuppleGroup group, const SupplePointQuery* query,
                                          SuppleSurfacePoint* out);
 
