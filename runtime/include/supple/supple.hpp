@@ -581,10 +581,12 @@ public:
         });
     }
 
+    /// Where hits are on the device, as long as the pool lives.
     [[nodiscard]] SuppleResult output(SuppleQueryOutput& out) const {
         out = sized<SuppleQueryOutput>();
         return suppleGetQueryOutput(context_, handle_, &out);
     }
+    /// Behind suppleRecord of its groups, once a frame.
     [[nodiscard]] SuppleResult record(VkCommandBuffer commandBuffer, const SuppleQueryDesc& desc) const {
         return suppleRecordQueries(context_, commandBuffer, handle_, &desc);
     }

@@ -490,75 +490,92 @@ private:
         }
     }
 
-    /// What the extensions of a material say.
-    SuppleMaterialLayers layersOf(const tinygltf::Material& from, const std::string& element) {
-        SuppleMaterialLayers layers = defaultMaterialLayers();
-        const auto numbers = [&](const char* extension, std::initializer_list<std::pair<const char*, float*>> all) {
-            const Value* values = extensionOf(from.extensions, extension);
-            for (const auto& [name, number] : all) {
-                *number = values == nullptr ? *number : numberIn(*values, name, *number);
-            }
-        };
-        const auto color = [&](const char* extension, const char* name, float(&to)[3]) {
-            const Value* values = extensionOf(from.extensions, extension);
-            const Value* list = values == nullptr ? nullptr : member(*values, name);
+    /// An extension of a material, read by the names of what it has. What it lacks stays as it is.
+    class LayerSource {
+    public:
+        LayerSource(TinygltfCharacter& character, const tinygltf::Material& from, const std::string& element,
+                    const char* extension)
+            : character_(character), element_(element), values_(extensionOf(from.extensions, extension)) {}
+
+        LayerSource& number(const char* name, float& to) {
+            to = values_ == nullptr ? to : numberIn(*values_, name, to);
+            return *this;
+        }
+        LayerSource& color(const char* name, float (&to)[3]) {
+            const Value* list = values_ == nullptr ? nullptr : member(*values_, name);
             for (int c = 0; list != nullptr && list->ArrayLen() == 3 && c < 3; ++c) {
                 to[c] = static_cast<float>(list->Get(c).GetNumberAsDouble());
             }
-        };
-        const auto textures = [&](const char* extension,
-                                  std::initializer_list<std::pair<const char*, SuppleTextureInfo*>> all) {
-            const Value* values = extensionOf(from.extensions, extension);
-            for (const auto& [name, texture] : all) {
-                const Value* info = values == nullptr ? nullptr : member(*values, name);
-                if (info != nullptr && info->IsObject()) {
-                    const Value* extensions = member(*info, "extensions");
-                    *texture = textureOf(indexIn(*info, "index"), std::max(indexIn(*info, "texCoord"), 0),
-                                         extensions == nullptr ? nullptr : member(*extensions, "KHR_texture_transform"),
-                                         element + " " + name);
-                }
-            }
-        };
-        numbers("KHR_materials_clearcoat", {{"clearcoatFactor", &layers.clearcoatFactor},
-                                            {"clearcoatRoughnessFactor", &layers.clearcoatRoughnessFactor}});
-        textures("KHR_materials_clearcoat", {{"clearcoatTexture", &layers.clearcoat},
-                                             {"clearcoatRoughnessTexture", &layers.clearcoatRoughness},
-                                             {"clearcoatNormalTexture", &layers.clearcoatNormal}});
-        if (const Value* coat = extensionOf(from.extensions, "KHR_materials_clearcoat")) {
-            const Value* normal = member(*coat, "clearcoatNormalTexture");
-            layers.clearcoatNormalScale = normal == nullptr ? 1.0f : numberIn(*normal, "scale", 1.0f);
+            return *this;
         }
-        numbers("KHR_materials_sheen", {{"sheenRoughnessFactor", &layers.sheenRoughnessFactor}});
-        color("KHR_materials_sheen", "sheenColorFactor", layers.sheenColorFactor);
-        textures("KHR_materials_sheen",
-                 {{"sheenColorTexture", &layers.sheenColor}, {"sheenRoughnessTexture", &layers.sheenRoughness}});
-        numbers("KHR_materials_transmission", {{"transmissionFactor", &layers.transmissionFactor}});
-        textures("KHR_materials_transmission", {{"transmissionTexture", &layers.transmission}});
-        numbers("KHR_materials_ior", {{"ior", &layers.ior}});
-        numbers("KHR_materials_specular", {{"specularFactor", &layers.specularFactor}});
-        color("KHR_materials_specular", "specularColorFactor", layers.specularColorFactor);
-        textures("KHR_materials_specular",
-                 {{"specularTexture", &layers.specular}, {"specularColorTexture", &layers.specularColor}});
-        numbers("KHR_materials_iridescence", {{"iridescenceFactor", &layers.iridescenceFactor},
-                                              {"iridescenceIor", &layers.iridescenceIor},
-                                              {"iridescenceThicknessMinimum", &layers.iridescenceThicknessMinimum},
-                                              {"iridescenceThicknessMaximum", &layers.iridescenceThicknessMaximum}});
-        textures("KHR_materials_iridescence", {{"iridescenceTexture", &layers.iridescence},
-                                               {"iridescenceThicknessTexture", &layers.iridescenceThickness}});
-        numbers("KHR_materials_anisotropy", {{"anisotropyStrength", &layers.anisotropyStrength},
-                                             {"anisotropyRotation", &layers.anisotropyRotation}});
-        textures("KHR_materials_anisotropy", {{"anisotropyTexture", &layers.anisotropy}});
-        numbers("KHR_materials_diffuse_transmission",
-                {{"diffuseTransmissionFactor", &layers.diffuseTransmissionFactor}});
-        color("KHR_materials_diffuse_transmission", "diffuseTransmissionColorFactor",
-              layers.diffuseTransmissionColorFactor);
-        textures("KHR_materials_diffuse_transmission",
-                 {{"diffuseTransmissionTexture", &layers.diffuseTransmission},
-                  {"diffuseTransmissionColorTexture", &layers.diffuseTransmissionColor}});
-        numbers("KHR_materials_volume",
-                {{"thicknessFactor", &layers.thicknessFactor}, {"attenuationDistance", &layers.attenuationDistance}});
-        color("KHR_materials_volume", "attenuationColor", layers.attenuationColor);
-        textures("KHR_materials_volume", {{"thicknessTexture", &layers.thickness}});
+        LayerSource& texture(const char* name, SuppleTextureInfo& to) {
+            const Value* info = values_ == nullptr ? nullptr : member(*values_, name);
+            if (info != nullptr && info->IsObject()) {
+                const Value* extensions = member(*info, "extensions");
+                to =
+                    character_.textureOf(indexIn(*info, "index"), std::max(indexIn(*info, "texCoord"), 0),
+                                         extensions == nullptr ? nullptr : member(*extensions, "KHR_texture_transform"),
+                                         element_ + " " + name);
+            }
+            return *this;
+        }
+        LayerSource& normalMap(const char* name, SuppleTextureInfo& to, float& scale) {
+            const Value* info = values_ == nullptr ? nullptr : member(*values_, name);
+            scale = info == nullptr ? scale : numberIn(*info, "scale", 1.0f);
+            return texture(name, to);
+        }
+
+    private:
+        TinygltfCharacter& character_;
+        const std::string& element_;
+        const Value* values_;
+    };
+
+    /// What the extensions of a material say.
+    SuppleMaterialLayers layersOf(const tinygltf::Material& from, const std::string& element) {
+        SuppleMaterialLayers layers = defaultMaterialLayers();
+        const auto source = [&](const char* extension) { return LayerSource(*this, from, element, extension); };
+        source("KHR_materials_clearcoat")
+            .number("clearcoatFactor", layers.clearcoatFactor)
+            .number("clearcoatRoughnessFactor", layers.clearcoatRoughnessFactor)
+            .texture("clearcoatTexture", layers.clearcoat)
+            .texture("clearcoatRoughnessTexture", layers.clearcoatRoughness)
+            .normalMap("clearcoatNormalTexture", layers.clearcoatNormal, layers.clearcoatNormalScale);
+        source("KHR_materials_sheen")
+            .number("sheenRoughnessFactor", layers.sheenRoughnessFactor)
+            .color("sheenColorFactor", layers.sheenColorFactor)
+            .texture("sheenColorTexture", layers.sheenColor)
+            .texture("sheenRoughnessTexture", layers.sheenRoughness);
+        source("KHR_materials_transmission")
+            .number("transmissionFactor", layers.transmissionFactor)
+            .texture("transmissionTexture", layers.transmission);
+        source("KHR_materials_ior").number("ior", layers.ior);
+        source("KHR_materials_specular")
+            .number("specularFactor", layers.specularFactor)
+            .color("specularColorFactor", layers.specularColorFactor)
+            .texture("specularTexture", layers.specular)
+            .texture("specularColorTexture", layers.specularColor);
+        source("KHR_materials_iridescence")
+            .number("iridescenceFactor", layers.iridescenceFactor)
+            .number("iridescenceIor", layers.iridescenceIor)
+            .number("iridescenceThicknessMinimum", layers.iridescenceThicknessMinimum)
+            .number("iridescenceThicknessMaximum", layers.iridescenceThicknessMaximum)
+            .texture("iridescenceTexture", layers.iridescence)
+            .texture("iridescenceThicknessTexture", layers.iridescenceThickness);
+        source("KHR_materials_anisotropy")
+            .number("anisotropyStrength", layers.anisotropyStrength)
+            .number("anisotropyRotation", layers.anisotropyRotation)
+            .texture("anisotropyTexture", layers.anisotropy);
+        source("KHR_materials_diffuse_transmission")
+            .number("diffuseTransmissionFactor", layers.diffuseTransmissionFactor)
+            .color("diffuseTransmissionColorFactor", layers.diffuseTransmissionColorFactor)
+            .texture("diffuseTransmissionTexture", layers.diffuseTransmission)
+            .texture("diffuseTransmissionColorTexture", layers.diffuseTransmissionColor);
+        source("KHR_materials_volume")
+            .number("thicknessFactor", layers.thicknessFactor)
+            .number("attenuationDistance", layers.attenuationDistance)
+            .color("attenuationColor", layers.attenuationColor)
+            .texture("thicknessTexture", layers.thickness);
         return layers;
     }
 
