@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Whether other Vulkan drivers compute what the system's one computes: positions of bakes, and the hashes of recorded scenes, in both
-# mappings. Normals may differ in their last bits, so they are not compared.
+# mappings. Normals may differ in their last bits: how far is printed.
 # Usage: tools/drivers.sh [--build-dir FOLDER] [--files FILE,..] [--jobs N] [DRIVER..]
 #   DRIVER        a driver's manifest (.json), or a folder with an unpacked mesa-vulkan-drivers, as `dpkg-deb -x` leaves it.
-#                 Chromium's SwiftShader is tried as well if it is installed
+#                 The lavapipe that tools/lavapipe.sh has fetched and Chromium's SwiftShader are tried as well where they are
 #   --build-dir   build/release, with the command and the tests
-#   --files       characters that are baked, with every scheme at two rates: samples/assets/helmet.glb, samples/assets/pip.glb
+#   --files       characters that are baked, with every scheme: samples/assets/helmet.glb, samples/assets/pip.glb
 #   --jobs        bakes at a time: 2
 # Exit code: 0 all is the same, 1 something differs, 2 bad usage, 77 there is no driver to compare with.
 set -euo pipefail
@@ -41,17 +41,18 @@ for driver in "${drivers[@]}"; do
     fi
     manifests+=("$driver")
 done
+[ ! -e build/lavapipe/lavapipe.json ] || manifests+=("$PWD/build/lavapipe/lavapipe.json")
 for library in /usr/lib/chromium/libvk_swiftshader.so /usr/lib/chromium-browser/libvk_swiftshader.so; do
     [ ! -e "$library" ] || manifests+=("$(manifest swiftshader "$library")")
 done
 if [ ${#manifests[@]} -eq 0 ]; then
-    echo "left out: there is no other driver; install chromium, or name one"
+    echo "left out: there is no other driver; run tools/lavapipe.sh, install chromium, or name one"
     exit 77
 fi
 
 # on MANIFEST NAME: a command that is supple on that driver alone; without a manifest on the system's.
 on() {
-    printf '#!/bin/sh\n%s\nexec "%s" "$@"\n' "${1:+export VK_DRIVER_FILES=\"$1\"}" "$supple" >"$work/$2"
+    printf '#!/bin/bash\n%s\nexec %s "$@"\n' "${1:+export VK_DRIVER_FILES=${1@Q}}" "${supple@Q}" >"$work/$2"
     chmod +x "$work/$2"
 }
 # name_of COMMAND: what the driver calls itself.
@@ -60,13 +61,14 @@ name_of() {
     python3 -c 'import json, sys; m = json.load(open(sys.argv[1]))["machine"]; print(m["device"], m["driverInfo"], sep=", ")' \
         "$work/$1.profile" 2>/dev/null || echo "a driver that takes nothing"
 }
+IFS=, read -ra characters <<<"$files"
 on '' system
 echo "compared with $(name_of system)"
 failed=0
 for manifest in "${manifests[@]}"; do
     on "$manifest" other
     echo "== $(name_of other), $manifest"
-    python3 -B tools/same_bits.py "$work/system" "$work/other" ${files//,/ } --positions --jobs "$jobs" || failed=1
+    python3 -B tools/same_bits.py "$work/system" "$work/other" "${characters[@]}" --positions --jobs "$jobs" --keep "$work/kept" || failed=1
     if VK_DRIVER_FILES=$manifest "$scenes" --gtest_filter='*RecordedScenes.*' --gtest_brief=1 >"$work/scenes" 2>&1; then
         echo "recorded scenes: the pinned hashes; $(grep -c 'narrow mapping left out' "$work/scenes" || true) without the narrow mapping"
     else
