@@ -399,6 +399,16 @@ struct MaterialLayers {
     float anisotropyStrength = 0.0f;
     float anisotropyRotation = 0.0f; ///< radians, counter-clockwise from the tangent
     Texture anisotropyTexture;       ///< red and green: direction, blue: strength
+    // KHR_materials_diffuse_transmission: light comes through and is scattered, as by leaves, wax and skin.
+    float diffuseTransmissionFactor = 0.0f;
+    Texture diffuseTransmissionTexture; ///< alpha
+    glm::vec3 diffuseTransmissionColorFactor{1.0f};
+    Texture diffuseTransmissionColorTexture; ///< sRGB
+    // KHR_materials_volume: what light loses inside.
+    float thicknessFactor = 0.0f;     ///< in units of the mesh; 0: a thin wall
+    Texture thicknessTexture;         ///< green
+    float attenuationDistance = 0.0f; ///< after so far, white light has the color below. 0: it loses nothing
+    glm::vec3 attenuationColor{1.0f};
 
     bool operator==(const MaterialLayers&) const = default;
 };

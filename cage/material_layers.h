@@ -32,9 +32,12 @@ struct LayerTexture {
     float MaterialLayers::*scale = nullptr; ///< of a normal map
 };
 
-inline constexpr std::array<const char*, 7> kLayerExtensions{
-    "KHR_materials_clearcoat", "KHR_materials_sheen",       "KHR_materials_transmission", "KHR_materials_ior",
-    "KHR_materials_specular",  "KHR_materials_iridescence", "KHR_materials_anisotropy"};
+inline constexpr std::array<const char*, 9> kLayerExtensions{
+    "KHR_materials_clearcoat",    "KHR_materials_sheen",
+    "KHR_materials_transmission", "KHR_materials_ior",
+    "KHR_materials_specular",     "KHR_materials_iridescence",
+    "KHR_materials_anisotropy",   "KHR_materials_diffuse_transmission",
+    "KHR_materials_volume"};
 
 // The members, each once: X(which of kLayerExtensions, name, what else its row has). A texture's member is its name and
 // "Texture". SuppleMaterialLayers has members of these names (runtime/material_layers.h).
@@ -50,10 +53,15 @@ inline constexpr std::array<const char*, 7> kLayerExtensions{
     X(5, iridescenceThicknessMinimum, 0.0f, kUnboundedLayer)                                                           \
     X(5, iridescenceThicknessMaximum, 0.0f, kUnboundedLayer)                                                           \
     X(6, anisotropyStrength)                                                                                           \
-    X(6, anisotropyRotation, -kUnboundedLayer, kUnboundedLayer)
+    X(6, anisotropyRotation, -kUnboundedLayer, kUnboundedLayer)                                                        \
+    X(7, diffuseTransmissionFactor)                                                                                    \
+    X(8, thicknessFactor, 0.0f, kUnboundedLayer)                                                                       \
+    X(8, attenuationDistance, 0.0f, kUnboundedLayer)
 #define SUPPLE_LAYER_COLORS(X)                                                                                         \
     X(1, sheenColorFactor)                                                                                             \
-    X(4, specularColorFactor, kUnboundedLayer)
+    X(4, specularColorFactor, kUnboundedLayer)                                                                         \
+    X(7, diffuseTransmissionColorFactor)                                                                               \
+    X(8, attenuationColor)
 #define SUPPLE_LAYER_TEXTURES(X)                                                                                       \
     X(0, clearcoat)                                                                                                    \
     X(0, clearcoatRoughness)                                                                                           \
@@ -65,7 +73,10 @@ inline constexpr std::array<const char*, 7> kLayerExtensions{
     X(4, specularColor)                                                                                                \
     X(5, iridescence)                                                                                                  \
     X(5, iridescenceThickness)                                                                                         \
-    X(6, anisotropy)
+    X(6, anisotropy)                                                                                                   \
+    X(7, diffuseTransmission)                                                                                          \
+    X(7, diffuseTransmissionColor)                                                                                     \
+    X(8, thickness)
 
 #define SUPPLE_ROW(extension, name, ...)                                                                               \
     {kLayerExtensions[extension], #name, &MaterialLayers::name __VA_OPT__(, ) __VA_ARGS__},

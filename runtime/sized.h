@@ -23,6 +23,8 @@ inline constexpr size_t kFirstSize<SuppleClipInfo> = offsetof(SuppleClipInfo, by
 template <>
 inline constexpr size_t kFirstSize<SuppleContextDesc> = offsetof(SuppleContextDesc, memoryBlockSize);
 template <>
+inline constexpr size_t kFirstSize<SuppleMaterialLayers> = offsetof(SuppleMaterialLayers, diffuseTransmissionFactor);
+template <>
 inline constexpr size_t kFirstSize<SuppleMemoryUse> = offsetof(SuppleMemoryUse, spare);
 template <>
 inline constexpr size_t kFirstSize<SuppleCageDesc> = offsetof(SuppleCageDesc, faceMaterials);

@@ -34,7 +34,7 @@ static_assert(SUPPLE_MAX_TRIM_TILES == cage::kMaxTrimTiles);
 static_assert(SUPPLE_MAX_COORDINATE == cage::kMaxCoordinate);
 // A struct within a struct can never grow, and no field may come to lie where there was padding.
 static_assert(sizeof(SuppleTextureInfo) == 12 * sizeof(uint32_t));
-static_assert(sizeof(SuppleMaterialLayers) == offsetof(SuppleMaterialLayers, anisotropy) + sizeof(SuppleTextureInfo));
+static_assert(sizeof(SuppleMaterialLayers) == offsetof(SuppleMaterialLayers, thickness) + sizeof(SuppleTextureInfo));
 static_assert(sizeof(SuppleMaterialInfo) == offsetof(SuppleMaterialInfo, trim) + sizeof(SuppleTextureInfo));
 
 SuppleTextureInfo toTextureInfo(const cage::Texture& from) {

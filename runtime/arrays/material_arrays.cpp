@@ -191,6 +191,21 @@ std::vector<cage::Image> readImageArrays(const SuppleCharacterDesc& desc, cage::
     return images;
 }
 
+namespace {
+
+/// What an older caller lacks is zero. That is an image, and black.
+void addLaterMembers(SuppleMaterialLayers& layers) {
+    std::fill_n(layers.diffuseTransmissionColorFactor, 3, 1.0f);
+    std::fill_n(layers.attenuationColor, 3, 1.0f);
+    for (SuppleTextureInfo* texture :
+         {&layers.diffuseTransmission, &layers.diffuseTransmissionColor, &layers.thickness}) {
+        texture->image = texture->alternateImage = SUPPLE_NO_IMAGE;
+        texture->scale[0] = texture->scale[1] = 1.0f;
+    }
+}
+
+} // namespace
+
 std::vector<cage::Material> readMaterialArrays(const SuppleCharacterDesc& desc, std::span<const cage::Image> images,
                                                cage::Refusals& refusals, cage::Warnings& warnings) {
     Faults all(refusals, "");
@@ -198,6 +213,9 @@ std::vector<cage::Material> readMaterialArrays(const SuppleCharacterDesc& desc, 
     std::vector<SuppleMaterialLayers> layers;
     if (desc.materialLayers != nullptr) {
         layers = takeArray(desc.materialLayers, desc.materialCount, "materialLayers", all);
+        if (!layers.empty() && desc.materialLayers->structSize < sizeof(SuppleMaterialLayers)) {
+            std::for_each(layers.begin(), layers.end(), addLaterMembers);
+        }
     }
     for (const SuppleMaterialInfo& from : takeArray(desc.materials, desc.materialCount, "materials", all)) {
         Faults faults(refusals, cage::at("material", materials.size()));

@@ -229,7 +229,12 @@ TEST_F(MaterialInfo, LayersHaveEveryFieldOfTheFile) {
     EXPECT_EQ(layers.iridescenceThicknessMaximum, 600.0f);
     EXPECT_EQ(layers.anisotropyStrength, 0.625f);
     EXPECT_EQ(layers.anisotropyRotation, -1.5f);
-    const uint32_t images[] = {0, 1, 0, 1, 0, 0, 1, 0, 1, 0, 1};
+    EXPECT_EQ(layers.diffuseTransmissionFactor, 0.6875f);
+    EXPECT_EQ(layers.diffuseTransmissionColorFactor[1], 0.25f);
+    EXPECT_EQ(layers.thicknessFactor, 0.0625f);
+    EXPECT_EQ(layers.attenuationDistance, 2.5f);
+    EXPECT_EQ(layers.attenuationColor[2], 0.25f);
+    const uint32_t images[] = {0, 1, 0, 1, 0, 0, 1, 0, 1, 0, 1, 0, 1, 0};
     for (size_t i = 0; i < runtime::kLayerTextureMembers.size(); ++i) {
         EXPECT_EQ((layers.*runtime::kLayerTextureMembers[i]).image, images[i]) << cage::kLayerTextures[i].name;
     }

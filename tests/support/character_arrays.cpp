@@ -54,6 +54,11 @@ SuppleMaterialLayers layersOf(const cage::MaterialLayers& from) {
     to.iridescenceThicknessMaximum = from.iridescenceThicknessMaximum;
     to.anisotropyStrength = from.anisotropyStrength;
     to.anisotropyRotation = from.anisotropyRotation;
+    to.diffuseTransmissionFactor = from.diffuseTransmissionFactor;
+    std::copy_n(&from.diffuseTransmissionColorFactor.x, 3, to.diffuseTransmissionColorFactor);
+    to.thicknessFactor = from.thicknessFactor;
+    to.attenuationDistance = from.attenuationDistance;
+    std::copy_n(&from.attenuationColor.x, 3, to.attenuationColor);
     to.clearcoat = textureInfo(from.clearcoatTexture);
     to.clearcoatRoughness = textureInfo(from.clearcoatRoughnessTexture);
     to.clearcoatNormal = textureInfo(from.clearcoatNormalTexture);
@@ -65,6 +70,9 @@ SuppleMaterialLayers layersOf(const cage::MaterialLayers& from) {
     to.iridescence = textureInfo(from.iridescenceTexture);
     to.iridescenceThickness = textureInfo(from.iridescenceThicknessTexture);
     to.anisotropy = textureInfo(from.anisotropyTexture);
+    to.diffuseTransmission = textureInfo(from.diffuseTransmissionTexture);
+    to.diffuseTransmissionColor = textureInfo(from.diffuseTransmissionColorTexture);
+    to.thickness = textureInfo(from.thicknessTexture);
     return to;
 }
 

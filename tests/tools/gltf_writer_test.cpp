@@ -253,6 +253,8 @@ TEST(GltfWriter, LayersOfMaterialsComeBack) {
     layers.anisotropyRotation = -0.5f;
     layers.sheenColorFactor = {1.0f, 0.5f, 0.25f};
     layers.specularColorFactor = {2.0f, 0.5f, 0.25f};
+    layers.diffuseTransmissionColorFactor = {1.0f, 0.5f, 0.0f};
+    layers.attenuationColor = {0.25f, 0.5f, 0.0f};
     for (const LayerTexture& row : kLayerTextures) {
         layers.*row.member = {.image = 1};
     }

@@ -764,7 +764,8 @@ typedef struct SuppleMaterialInfo {
 
 /** What a material has beyond the metallic-roughness model, as glTF's extensions describe it. A material without one of
  * these extensions has the value in brackets, and textures without an image. Factors are linear and multiply their
- * textures. Images of sheenColor and specularColor hold sRGB colors, all others linear numbers. */
+ * textures. Images of sheenColor, specularColor and diffuseTransmissionColor hold sRGB colors, all others linear
+ * numbers. */
 typedef struct SuppleMaterialLayers {
     uint32_t structSize;
     float clearcoatFactor;          /**< 0..1: how much of a clear layer lies over all; KHR_materials_clearcoat (0) */
@@ -796,6 +797,17 @@ typedef struct SuppleMaterialLayers {
     SuppleTextureInfo iridescence;          /**< red */
     SuppleTextureInfo iridescenceThickness; /**< green */
     SuppleTextureInfo anisotropy;           /**< red and green: 2 * RG - 1 is a direction; blue: strength */
+    float diffuseTransmissionFactor; /**< 0..1: the share of scattered light that comes out on the other side, as of
+                                      * leaves, wax and skin; KHR_materials_diffuse_transmission (0) */
+    float diffuseTransmissionColorFactor[3]; /**< RGB, 0..1: its color there (1) */
+    float thicknessFactor;     /**< units of the mesh: of what lies behind the surface; KHR_materials_volume (0: a thin
+                                * wall) */
+    float attenuationDistance; /**< units: inside, white light has the color below after so far. 0: it loses nothing
+                                * (0) */
+    float attenuationColor[3]; /**< RGB, 0..1 (1) */
+    SuppleTextureInfo diffuseTransmission;      /**< alpha */
+    SuppleTextureInfo diffuseTransmissionColor; /**< RGB, sRGB */
+    SuppleTextureInfo thickness;                /**< green */
 } SuppleMaterialLayers;
 
 /** An image as the file holds it. The host decodes it. */

@@ -49,10 +49,14 @@ template <class T>
     layers.iridescenceIor = 1.3f;
     layers.iridescenceThicknessMinimum = 100.0f;
     layers.iridescenceThicknessMaximum = 400.0f;
+    for (int c = 0; c < 3; ++c) {
+        layers.diffuseTransmissionColorFactor[c] = layers.attenuationColor[c] = 1.0f;
+    }
     for (SuppleTextureInfo* texture :
          {&layers.clearcoat, &layers.clearcoatRoughness, &layers.clearcoatNormal, &layers.sheenColor,
           &layers.sheenRoughness, &layers.transmission, &layers.specular, &layers.specularColor, &layers.iridescence,
-          &layers.iridescenceThickness, &layers.anisotropy}) {
+          &layers.iridescenceThickness, &layers.anisotropy, &layers.diffuseTransmission,
+          &layers.diffuseTransmissionColor, &layers.thickness}) {
         texture->image = texture->alternateImage = SUPPLE_NO_IMAGE;
         texture->scale[0] = texture->scale[1] = 1.0f;
     }

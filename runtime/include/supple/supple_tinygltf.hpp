@@ -548,6 +548,17 @@ private:
         numbers("KHR_materials_anisotropy", {{"anisotropyStrength", &layers.anisotropyStrength},
                                              {"anisotropyRotation", &layers.anisotropyRotation}});
         textures("KHR_materials_anisotropy", {{"anisotropyTexture", &layers.anisotropy}});
+        numbers("KHR_materials_diffuse_transmission",
+                {{"diffuseTransmissionFactor", &layers.diffuseTransmissionFactor}});
+        color("KHR_materials_diffuse_transmission", "diffuseTransmissionColorFactor",
+              layers.diffuseTransmissionColorFactor);
+        textures("KHR_materials_diffuse_transmission",
+                 {{"diffuseTransmissionTexture", &layers.diffuseTransmission},
+                  {"diffuseTransmissionColorTexture", &layers.diffuseTransmissionColor}});
+        numbers("KHR_materials_volume",
+                {{"thicknessFactor", &layers.thicknessFactor}, {"attenuationDistance", &layers.attenuationDistance}});
+        color("KHR_materials_volume", "attenuationColor", layers.attenuationColor);
+        textures("KHR_materials_volume", {{"thicknessTexture", &layers.thickness}});
         return layers;
     }
 

@@ -23,7 +23,11 @@ inline GltfBuilder layeredQuad() {
         R"("KHR_materials_iridescence":{"iridescenceFactor":0.375,"iridescenceTexture":{"index":1},)"
         R"("iridescenceIor":1.625,"iridescenceThicknessMinimum":50,"iridescenceThicknessMaximum":600,)"
         R"("iridescenceThicknessTexture":{"index":0}},"KHR_materials_anisotropy":{"anisotropyStrength":0.625,)"
-        R"("anisotropyRotation":-1.5,"anisotropyTexture":{"index":1}}}},{"name":"plain"}],)"
+        R"("anisotropyRotation":-1.5,"anisotropyTexture":{"index":1}},"KHR_materials_diffuse_transmission":)"
+        R"({"diffuseTransmissionFactor":0.6875,"diffuseTransmissionTexture":{"index":0},)"
+        R"("diffuseTransmissionColorFactor":[0.5,0.25,0],"diffuseTransmissionColorTexture":{"index":1}},)"
+        R"("KHR_materials_volume":{"thicknessFactor":0.0625,"thicknessTexture":{"index":0},)"
+        R"("attenuationDistance":2.5,"attenuationColor":[0.75,0.5,0.25]}}},{"name":"plain"}],)"
         R"("textures":[{"source":0},{"source":1}],"images":[{"uri":"data:image/png;base64,iVBORw0KGgo="},)"
         R"({"uri":"data:image/png;base64,iVBORw0KGgoA"}],"extensionsUsed":["KHR_materials_variants"],)"
         R"("extensions":{"KHR_materials_variants":{"variants":[{"name":"day"},{"name":"night"}]}})";

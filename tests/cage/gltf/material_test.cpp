@@ -255,20 +255,20 @@ TEST(GltfMaterial, SpecularGlossinessBesideMetallicRoughness) {
 
 TEST(GltfMaterial, UnreadExtensionsAreNamedOnceAKind) {
     GltfBuilder b =
-        quadWith(R"({"extensions":{"KHR_materials_volume":{},"KHR_materials_dispersion":{"dispersion":1.4}}},)"
-                 R"({"extensions":{"KHR_materials_volume":{"thicknessTexture":{"index":99}}},)"
+        quadWith(R"({"extensions":{"KHR_materials_volume_scatter":{},"KHR_materials_dispersion":{"dispersion":1.4}}},)"
+                 R"({"extensions":{"KHR_materials_volume_scatter":{"multiscatterColorTexture":{"index":99}}},)"
                  R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"ACME_noise":{}}}}},)"
-                 R"({"extensions":{"KHR_materials_volume":7,"KHR_materials_sheen":{"sheenColorTexture":)"
+                 R"({"extensions":{"KHR_materials_volume_scatter":7,"KHR_materials_sheen":{"sheenColorTexture":)"
                  R"({"index":0,"extensions":{"ACME_noise":{}}}}}})",
                  R"({"source":0,"extensions":{"EXT_texture_avif":{"source":0}}})",
-                 R"(,"extensionsUsed":["KHR_materials_volume","KHR_materials_sheen"])");
+                 R"(,"extensionsUsed":["KHR_materials_volume_scatter","KHR_materials_sheen"])");
     EXPECT_EQ(warningsOf(b),
               (Strings{"material 1 baseColorTexture: ACME_noise is not read, here and in 1 other place",
                        "texture 0: EXT_texture_avif is not read", "material 0: KHR_materials_dispersion is not read",
-                       "material 0: KHR_materials_volume is not read, here and in 2 other places"}))
+                       "material 0: KHR_materials_volume_scatter is not read, here and in 2 other places"}))
         << "what is declared and not there is nothing to name";
-    EXPECT_EQ(messageOf(quadWith("", "", R"(,"extensionsRequired":["KHR_materials_volume"])")),
-              "t.glb: extensionsRequired: KHR_materials_volume is not supported");
+    EXPECT_EQ(messageOf(quadWith("", "", R"(,"extensionsRequired":["KHR_materials_volume_scatter"])")),
+              "t.glb: extensionsRequired: KHR_materials_volume_scatter is not supported");
 }
 
 TEST(GltfMaterial, LayersAreReadWhole) {
@@ -283,10 +283,15 @@ TEST(GltfMaterial, LayersAreReadWhole) {
         R"("KHR_materials_iridescence":{"iridescenceFactor":0.5,"iridescenceTexture":{"index":0},)"
         R"("iridescenceIor":1.5,"iridescenceThicknessMinimum":50,"iridescenceThicknessMaximum":600,)"
         R"("iridescenceThicknessTexture":{"index":0}},"KHR_materials_anisotropy":{"anisotropyStrength":0.625,)"
-        R"("anisotropyRotation":-1.5,"anisotropyTexture":{"index":0}}}})",
+        R"("anisotropyRotation":-1.5,"anisotropyTexture":{"index":0}},"KHR_materials_diffuse_transmission":)"
+        R"({"diffuseTransmissionFactor":0.6875,"diffuseTransmissionTexture":{"index":0},)"
+        R"("diffuseTransmissionColorFactor":[0.5,0.25,0],"diffuseTransmissionColorTexture":{"index":0}},)"
+        R"("KHR_materials_volume":{"thicknessFactor":3,"thicknessTexture":{"index":0},"attenuationDistance":2.5,)"
+        R"("attenuationColor":[0.75,0.5,0.25]}}})",
         R"({"source":0})",
         R"(,"extensionsRequired":["KHR_materials_clearcoat","KHR_materials_sheen","KHR_materials_transmission",)"
-        R"("KHR_materials_ior","KHR_materials_specular","KHR_materials_iridescence","KHR_materials_anisotropy"])");
+        R"("KHR_materials_ior","KHR_materials_specular","KHR_materials_iridescence","KHR_materials_anisotropy",)"
+        R"("KHR_materials_diffuse_transmission","KHR_materials_volume"])");
     EXPECT_EQ(warningsOf(b), Strings());
     const Texture first{.image = 0};
     MaterialLayers expected;
@@ -305,6 +310,11 @@ TEST(GltfMaterial, LayersAreReadWhole) {
     expected.iridescenceThicknessMaximum = 600.0f;
     expected.anisotropyStrength = 0.625f;
     expected.anisotropyRotation = -1.5f;
+    expected.diffuseTransmissionFactor = 0.6875f;
+    expected.diffuseTransmissionColorFactor = {0.5f, 0.25f, 0};
+    expected.thicknessFactor = 3;
+    expected.attenuationDistance = 2.5f;
+    expected.attenuationColor = {0.75f, 0.5f, 0.25f};
     for (const LayerTexture& row : kLayerTextures) {
         expected.*row.member = first;
     }

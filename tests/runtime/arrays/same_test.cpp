@@ -10,6 +10,7 @@
 #include "tests/support/sample_assets.h"
 #include "tests/support/shared_assets.h"
 
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
@@ -122,16 +123,33 @@ TEST(CharacterArrays, HaveAllLayersOfMaterials) {
     const Result<cage::Character> file = cage::readGltf(layeredQuad().glb(), "layered.glb", "");
     ASSERT_TRUE(file.ok()) << file.error().message;
     EXPECT_EQ(CharacterDifferences(*file, throughArrays(*file, false), kOfArrays).found(), Strings());
-    // A host that knows no layers.
     CharacterArrays arrays(*file);
-    arrays.desc.structSize = offsetof(SuppleCharacterDesc, materialLayers);
     SuppleAssetDesc desc{};
     desc.structSize = sizeof desc;
     desc.name = "layered.glb";
     desc.character = &arrays.desc;
+    // A host that knows the layers of the first version.
+    constexpr size_t kFirst = offsetof(SuppleMaterialLayers, diffuseTransmissionFactor);
+    std::vector<std::byte> firstLayers(file->materials.size() * kFirst);
+    for (size_t i = 0; i < file->materials.size(); ++i) {
+        SuppleMaterialLayers layers = arrays.desc.materialLayers[i];
+        layers.structSize = kFirst;
+        std::memcpy(firstLayers.data() + i * kFirst, &layers, kFirst);
+    }
+    arrays.desc.materialLayers = reinterpret_cast<const SuppleMaterialLayers*>(firstLayers.data());
+    const Result<cage::Character> first = api::readAsset("suppleCreateAsset", desc);
+    ASSERT_TRUE(first.ok()) << first.error().message;
+    cage::MaterialLayers known = file->materials[0].layers;
+    const cage::MaterialLayers none;
+    known.diffuseTransmissionFactor = known.thicknessFactor = known.attenuationDistance = 0.0f;
+    known.diffuseTransmissionColorFactor = known.attenuationColor = none.attenuationColor;
+    known.diffuseTransmissionTexture = known.diffuseTransmissionColorTexture = known.thicknessTexture = {};
+    EXPECT_TRUE(first->materials[0].layers == known);
+    // A host that knows no layers.
+    arrays.desc.structSize = offsetof(SuppleCharacterDesc, materialLayers);
     const Result<cage::Character> old = api::readAsset("suppleCreateAsset", desc);
     ASSERT_TRUE(old.ok()) << old.error().message;
-    EXPECT_TRUE(old->materials[0].layers == cage::MaterialLayers{});
+    EXPECT_TRUE(old->materials[0].layers == none);
 }
 
 TEST(CharacterArrays, AreSewnAsTheFileIs) {
