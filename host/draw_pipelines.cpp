@@ -96,6 +96,8 @@ Status DrawPipelines::createLayouts() {
         texture(shared::kSheenColor),
         texture(shared::kSheenRoughness),
         texture(shared::kTransmission),
+        texture(shared::kAnisotropy),
+        texture(shared::kDiffuseTransmissionColor),
     };
     for (const Status& status :
          {keep(createSetLayout(device_, frame), frameSet), keep(createSetLayout(device_, figure), figureSet),

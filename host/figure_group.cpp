@@ -98,7 +98,7 @@ Status createWithTangents(Context& context, SuppleGroupDesc desc, bool tangents,
 Result<std::unique_ptr<FigureGroup>> FigureGroup::create(Figure& figure, const GroupOptions& options) {
     Context& context = figure.context();
     std::unique_ptr<FigureGroup> group(new FigureGroup(figure));
-    const bool tangents = figure.materials().hasNormalMaps();
+    const bool tangents = figure.materials().needTangents();
     SuppleGroupDesc desc{};
     desc.structSize = sizeof desc;
     if (options.levels) {

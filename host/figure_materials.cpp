@@ -95,7 +95,8 @@ Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const 
                                                                            : TextureKind::data;
         const bool ownTrim = info.trimDomain != SUPPLE_TRIM_NONE && info.trimAlpha == 0;
         const auto kindOf = [&](uint32_t slot) {
-            const bool isColor = slot == shared::kBaseColor || slot == shared::kEmissive || slot == shared::kSheenColor;
+            const bool isColor = slot == shared::kBaseColor || slot == shared::kEmissive ||
+                                 slot == shared::kSheenColor || slot == shared::kDiffuseTransmissionColor;
             return slot == shared::kTrim ? trimKind : (isColor ? TextureKind::color : TextureKind::data);
         };
         const auto textures = texturesOf(info, layers);
@@ -120,6 +121,14 @@ bool FigureMaterials::hasMaps(uint32_t material) const {
 
 bool FigureMaterials::hasNormalMaps() const {
     return std::any_of(slots_.begin(), slots_.end(), [](const auto& slots) { return slots[shared::kNormal] != 0; });
+}
+
+bool FigureMaterials::needTangents() const {
+    for (size_t i = 0; i < infos_.size(); ++i) {
+        if (needsTangents(infos_[i], layers_[i]))
+            return true;
+    }
+    return false;
 }
 
 Result<size_t> FigureMaterials::load(Context& context, SuppleAsset asset, const std::string& path,

@@ -40,6 +40,8 @@ public:
     [[nodiscard]] bool hasMaps(uint32_t material) const;
     /// Any of them has a normal map.
     [[nodiscard]] bool hasNormalMaps() const;
+    /// Any of them is looked at along tangents of the surface.
+    [[nodiscard]] bool needTangents() const;
     /// The back of its faces is not drawn, because the file says so. What knows nothing of sides shows both.
     [[nodiscard]] bool isOneSided(uint32_t material) const {
         return !knowsNoSides_ && indexOf(material) + 1 < infos_.size() && of(material).doubleSided == 0;

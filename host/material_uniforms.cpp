@@ -35,6 +35,15 @@ bool isUsualDielectric(const SuppleMaterialLayers& layers) {
                        [](float channel) { return channel == 1.0f; });
 }
 
+/// What light loses inside, for each unit of its way.
+glm::vec4 extinctionOf(const SuppleMaterialLayers& layers) {
+    constexpr float kBlack = 1e-4f; // infinity would be no number where the way is 0
+    glm::vec4 lost(0.0f, 0.0f, 0.0f, layers.thicknessFactor);
+    for (int channel = 0; channel < 3 && layers.attenuationDistance > 0.0f; ++channel)
+        lost[channel] = -std::log(std::max(layers.attenuationColor[channel], kBlack)) / layers.attenuationDistance;
+    return lost;
+}
+
 bool hasSheen(const SuppleMaterialLayers& layers) {
     return std::any_of(std::begin(layers.sheenColorFactor), std::end(layers.sheenColorFactor),
                        [](float channel) { return channel > 0.0f; });
@@ -44,6 +53,10 @@ bool hasSheen(const SuppleMaterialLayers& layers) {
 
 bool isGlass(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers) {
     return layers.transmissionFactor > 0.0f && material.unlit == 0;
+}
+
+bool needsTangents(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers) {
+    return material.normal.image != SUPPLE_NO_IMAGE || layers.anisotropyStrength > 0.0f;
 }
 
 uint32_t materialFlags(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers, bool uv1) {
@@ -69,6 +82,8 @@ uint32_t materialFlags(const SuppleMaterialInfo& material, const SuppleMaterialL
     set(hasSheen(layers), shared::kMaterialSheen);
     set(isGlass(material, layers), shared::kMaterialTransmission);
     set(!isUsualDielectric(layers), shared::kMaterialSpecular);
+    set(layers.anisotropyStrength > 0.0f, shared::kMaterialAnisotropy);
+    set(layers.diffuseTransmissionFactor > 0.0f, shared::kMaterialDiffuseTransmission);
     return flags;
 }
 
@@ -93,6 +108,11 @@ shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, co
     uniforms.clearcoatRoughness = layers.clearcoatRoughnessFactor;
     uniforms.clearcoatNormalScale = layers.clearcoatNormalScale;
     uniforms.transmission = layers.transmissionFactor;
+    const float* through = layers.diffuseTransmissionColorFactor;
+    uniforms.diffuseTransmission = glm::vec4(through[0], through[1], through[2], layers.diffuseTransmissionFactor);
+    uniforms.extinction = extinctionOf(layers);
+    uniforms.anisotropy = glm::vec4(layers.anisotropyStrength, std::cos(layers.anisotropyRotation),
+                                    std::sin(layers.anisotropyRotation), 0.0f);
     const bool ownTrim = hasOwnTrim(material);
     uniforms.cutoff = ownTrim ? material.trimCutoff : material.alphaCutoff;
     uniforms.trimChannel = ownTrim ? material.trimChannel : 3;

@@ -11,10 +11,13 @@ namespace supple::host {
 /// The textures that are looked up, in the order of shared::kBaseColor and so on.
 template <class Info, class Layers>
 [[nodiscard]] auto texturesOf(Info& material, Layers& layers) {
-    const std::array textures{&material.baseColor, &material.metallicRoughness, &material.normal,
-                              &material.occlusion, &material.emissive,          &material.trim,
-                              &layers.clearcoat,   &layers.clearcoatRoughness,  &layers.clearcoatNormal,
-                              &layers.sheenColor,  &layers.sheenRoughness,      &layers.transmission};
+    const std::array textures{&material.baseColor,     &material.metallicRoughness,
+                              &material.normal,        &material.occlusion,
+                              &material.emissive,      &material.trim,
+                              &layers.clearcoat,       &layers.clearcoatRoughness,
+                              &layers.clearcoatNormal, &layers.sheenColor,
+                              &layers.sheenRoughness,  &layers.transmission,
+                              &layers.anisotropy,      &layers.diffuseTransmissionColor};
     static_assert(textures.size() == shared::kTextureCount);
     return textures;
 }
@@ -24,6 +27,8 @@ template <class Info, class Layers>
                                                         const SuppleMaterialLayers& layers, bool uv1);
 /// What it has: shared::kMaterial...
 [[nodiscard]] uint32_t materialFlags(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers, bool uv1);
+/// It is looked at along tangents of the surface.
+[[nodiscard]] bool needsTangents(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers);
 /// Light goes through it, as through thin glass.
 [[nodiscard]] bool isGlass(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers);
 

@@ -34,6 +34,9 @@ void main() {
         coat = mappedNormalHere(front, inPosition, uv, clearcoatTexelAt(uv));
     }
     Layers layers = layersAt(inUvs);
+    vec3 stretch = vec3(0.0);
+    if (shaded && materialHas(kMaterialAnisotropy))
+        stretch = mappedNormalHere(front, inPosition, placed(kAnisotropy, inUvs), vec3(layers.stretch.xy, 0.0));
     vec3 flatly = vec3(0.0);
     if (isFlatView(kView)) {
         vec3 tangent = mappedNormalHere(front, inPosition, placed(kNormal, inUvs), vec3(1.0, 0.0, 0.0));
@@ -60,11 +63,12 @@ void main() {
     }
     if (back && !materialHas(kMaterialDoubleSided))
         material.albedo *= 0.35;
-    Incident light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
+    vec3 noise = pixelNoise(gl_FragCoord.xy);
+    Incident light = gatherLight(inPosition, n, kLookAsFits, noise);
     vec3 bumps = back ? -mapped : mapped;
     vec3 color;
     if (shaded && isLayered())
-        color = layeredColor(material, layeredShade(material, layers, light, bumps, back ? -coat : coat, n, v), alpha);
+        color = layeredColor(material, layeredShade(material, layers, light, Place(inPosition, bumps, back ? -coat : coat, n, v, stretch, noise)), alpha);
     else
         color = studioTone(material, studioShade(material, light, bumps, n, v));
     outColor = vec4(color, alpha);

@@ -56,7 +56,9 @@ SUPPLE_HOST_CONST kClearcoatNormal = 8u;
 SUPPLE_HOST_CONST kSheenColor = 9u;
 SUPPLE_HOST_CONST kSheenRoughness = 10u;
 SUPPLE_HOST_CONST kTransmission = 11u;
-SUPPLE_HOST_CONST kTextureCount = 12u;
+SUPPLE_HOST_CONST kAnisotropy = 12u;
+SUPPLE_HOST_CONST kDiffuseTransmissionColor = 13u;
+SUPPLE_HOST_CONST kTextureCount = 14u; // with two of the frame 16, which Vulkan promises
 
 // The map of the studio (host/environment.h).
 SUPPLE_HOST_CONST kEnvironmentSize = 256u;
@@ -143,10 +145,12 @@ SUPPLE_HOST_CONST kMaterialTrimFace = 32u;   // it is a strip of tiles, one a fa
 SUPPLE_HOST_CONST kMaterialTrimAlpha = 64u;  // base color and vertex alpha multiply it
 SUPPLE_HOST_CONST kMaterialUvs1 = 128u;      // a texture lies on the second texture coordinates
 SUPPLE_HOST_CONST kMaterialTexture = 256u;   // << kBaseColor: the texture of that place; and so on
-SUPPLE_HOST_CONST kMaterialClearcoat = 1u << 20;
-SUPPLE_HOST_CONST kMaterialSheen = 1u << 21;
-SUPPLE_HOST_CONST kMaterialTransmission = 1u << 22;
-SUPPLE_HOST_CONST kMaterialSpecular = 1u << 23; // MaterialUniforms::dielectric differs from what it usually is
+SUPPLE_HOST_CONST kMaterialClearcoat = 1u << 22;
+SUPPLE_HOST_CONST kMaterialSheen = 1u << 23;
+SUPPLE_HOST_CONST kMaterialTransmission = 1u << 24;
+SUPPLE_HOST_CONST kMaterialSpecular = 1u << 25; // MaterialUniforms::dielectric differs from what it usually is
+SUPPLE_HOST_CONST kMaterialAnisotropy = 1u << 26;
+SUPPLE_HOST_CONST kMaterialDiffuseTransmission = 1u << 27;
 
 // A patch in kPatchBinding: its class, then the vertices of its face, which say whether the pose mirrors it:
 // CageCorner::faceStart and faceSides.
@@ -223,9 +227,12 @@ struct TexturePlace {
 
 struct MaterialUniforms {
     vec4 baseColor;
-    vec4 emissive;   // with its strength
-    vec4 sheen;      // w: its roughness
-    vec4 dielectric; // what it mirrors if it is looked at straight; w: and along the surface
+    vec4 emissive;            // with its strength
+    vec4 sheen;               // w: its roughness
+    vec4 dielectric;          // what it mirrors if it is looked at straight; w: and along the surface
+    vec4 diffuseTransmission; // its color; w: its share of scattered light
+    vec4 extinction; // inside: what is left after a length x is exp(-x * extinction); w: thickness, 0: a thin wall
+    vec4 anisotropy; // x: its strength; y, z: cosine and sine of its rotation
     TexturePlace places[kTextureCount];
     float metallic;
     float roughness;

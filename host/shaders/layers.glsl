@@ -1,5 +1,5 @@
-// What glTF's extensions lay over a material, and what goes through it: clearcoat, sheen, transmission as of thin glass, and
-// what a dielectric mirrors. See material.glsl and studio.glsl.
+// What glTF's extensions lay over a material, and what goes through it: clearcoat, sheen, transmission as of thin glass, light
+// that is scattered through, what a dielectric mirrors, and highlights that are stretched. See material.glsl and studio.glsl.
 
 layout(set = 2, binding = kFirstTextureBinding + kClearcoat) uniform sampler2D clearcoatTexture;
 layout(set = 2, binding = kFirstTextureBinding + kClearcoatRoughness) uniform sampler2D clearcoatRoughnessTexture;
@@ -7,6 +7,8 @@ layout(set = 2, binding = kFirstTextureBinding + kClearcoatNormal) uniform sampl
 layout(set = 2, binding = kFirstTextureBinding + kSheenColor) uniform sampler2D sheenColorTexture;
 layout(set = 2, binding = kFirstTextureBinding + kSheenRoughness) uniform sampler2D sheenRoughnessTexture;
 layout(set = 2, binding = kFirstTextureBinding + kTransmission) uniform sampler2D transmissionTexture;
+layout(set = 2, binding = kFirstTextureBinding + kAnisotropy) uniform sampler2D anisotropyTexture;
+layout(set = 2, binding = kFirstTextureBinding + kDiffuseTransmissionColor) uniform sampler2D diffuseTransmissionColorTexture;
 
 // Glass is drawn twice: what is behind it is multiplied by a color, then what it sends itself is added.
 layout(constant_id = 4) const bool kThrough = false;
@@ -20,10 +22,24 @@ struct Layers {
     float transmission;
     vec3 dielectric; // what it mirrors if it is looked at straight
     float grazing;   // and along the surface
+    vec3 stretch;    // which way highlights are stretched, of a tangent, a bitangent; z: how much
+    vec3 inside;     // the color of light that has gone through
+};
+
+/// A place of a surface, and who looks at it.
+struct Place {
+    vec3 position;
+    vec3 n;       // that is shaded
+    vec3 coat;    // of the clearcoat
+    vec3 surface; // of the surface itself; all three face the viewer's side
+    vec3 v;
+    vec3 stretch; // which way highlights are stretched
+    vec3 noise;   // of the pixel
 };
 
 bool isLayered() {
-    return materialHas(kMaterialClearcoat | kMaterialSheen | kMaterialTransmission | kMaterialSpecular);
+    return materialHas(kMaterialClearcoat | kMaterialSheen | kMaterialTransmission | kMaterialSpecular |
+                       kMaterialAnisotropy | kMaterialDiffuseTransmission);
 }
 
 /// The share of light that goes through, before anything is mirrored.
@@ -34,7 +50,7 @@ float transmissionAt(vec4 uvs) {
 }
 
 Layers layersAt(vec4 uvs) {
-    Layers layers = Layers(0.0, 0.0, vec3(0.0), 0.0, transmissionAt(uvs), vec3(0.04), 1.0);
+    Layers layers = Layers(0.0, 0.0, vec3(0.0), 0.0, transmissionAt(uvs), vec3(0.04), 1.0, vec3(0.0), vec3(0.0));
     if (materialHas(kMaterialClearcoat)) {
         layers.coat = materialData.clearcoat;
         layers.coatRoughness = materialData.clearcoatRoughness;
@@ -55,7 +71,29 @@ Layers layersAt(vec4 uvs) {
         layers.dielectric = materialData.dielectric.rgb;
         layers.grazing = materialData.dielectric.a;
     }
+    if (materialHas(kMaterialAnisotropy)) {
+        vec3 texel = vec3(1.0, 0.0, 1.0);
+        if (hasTexture(kAnisotropy)) {
+            texel = texture(anisotropyTexture, placed(kAnisotropy, uvs)).rgb;
+            texel.xy = 2.0 * texel.xy - 1.0;
+        }
+        float c = materialData.anisotropy.y, s = materialData.anisotropy.z;
+        layers.stretch = vec3(c * texel.x - s * texel.y, s * texel.x + c * texel.y, materialData.anisotropy.x * texel.z);
+    }
+    if (materialHas(kMaterialDiffuseTransmission)) {
+        layers.inside = materialData.diffuseTransmission.rgb;
+        if (hasTexture(kDiffuseTransmissionColor))
+            layers.inside *= texture(diffuseTransmissionColorTexture, placed(kDiffuseTransmissionColor, uvs)).rgb;
+    }
     return layers;
+}
+
+/// n: the unit normal of the front. tangent: a vector of any length; up: how the bitangent lies beside it.
+vec3 stretchedAlong(Layers layers, vec3 n, vec3 tangent, float up) {
+    vec3 t = tangent - n * dot(n, tangent);
+    t *= inversesqrt(max(dot(t, t), 1e-30));
+    vec3 along = layers.stretch.x * t + layers.stretch.y * up * cross(n, t);
+    return along * inversesqrt(max(dot(along, along), 1e-30));
 }
 
 /// The coat's own normal map, in tangent space.
@@ -88,17 +126,31 @@ struct Layered {
     float glow;   // the share of its emission that leaves
 };
 
-/// coat: the normal of the coat; n and surface: as of studioShade().
-Layered layeredShade(Material material, Layers layers, Incident light, vec3 n, vec3 coat, vec3 surface, vec3 v) {
+/// What it mirrors below its layers.
+vec3 layeredMirror(Material material, Layers layers, Incident light, Place at) {
+    if (!materialHas(kMaterialAnisotropy))
+        return studioMirrored(material.roughness, material.occlusion, light, at.n, at.surface, at.v);
+    return studioMirroredAlong(vec4(at.stretch, layers.stretch.z), material.roughness, material.occlusion, light, at.n, at.surface,
+                               at.v, at.noise);
+}
+
+Layered layeredShade(Material material, Layers layers, Incident light, Place at) {
+    vec3 n = at.n, surface = at.surface, v = at.v;
     float nv = clamp(dot(n, v), 1e-3, 1.0);
-    vec3 scattered = studioScattered(material.occlusion, light, n, surface);
     vec3 f0 = mix(layers.dielectric, material.albedo, material.metallic);
     vec3 share = mirroredShareOf(f0, mix(layers.grazing, 1.0, material.metallic), material.roughness, nv);
-    vec3 body = material.albedo * (1.0 - material.metallic) * (1.0 - share);
+    vec3 enters = (1.0 - material.metallic) * (1.0 - share);
+    vec3 body = material.albedo * enters;
+    vec3 scattered = body * studioScattered(material.occlusion, light, n, surface);
+    if (materialHas(kMaterialDiffuseTransmission)) {
+        vec3 inside = studioInside(light, materialData.extinction, at.position, surface, at.noise);
+        scattered = mix(scattered, enters * layers.inside * inside, materialData.diffuseTransmission.a);
+    }
     Layered shown;
-    shown.lit = body * (1.0 - layers.transmission) * scattered +
-                share * studioMirrored(material.roughness, material.occlusion, light, n, surface, v);
+    shown.lit = (1.0 - layers.transmission) * scattered + share * layeredMirror(material, layers, light, at);
     shown.through = body * layers.transmission;
+    if (materialHas(kMaterialTransmission))
+        shown.through *= exp(-materialData.extinction.rgb * materialData.extinction.w);
     shown.glow = 1.0;
     if (materialHas(kMaterialTransmission)) {
         // Rough glass sends on what comes from all round behind it, as ground glass does.
@@ -116,9 +168,9 @@ Layered layeredShade(Material material, Layers layers, Incident light, vec3 n, v
         shown.lit = shown.lit * passes + layers.sheen * fuzz;
     }
     if (materialHas(kMaterialClearcoat)) {
-        float coated = layers.coat * mirroredShare(vec3(0.04), layers.coatRoughness, clamp(dot(coat, v), 1e-3, 1.0)).x;
+        float coated = layers.coat * mirroredShare(vec3(0.04), layers.coatRoughness, clamp(dot(at.coat, v), 1e-3, 1.0)).x;
         shown.lit = shown.lit * (1.0 - coated) +
-                    coated * studioMirrored(layers.coatRoughness, material.occlusion, light, coat, surface, v);
+                    coated * studioMirrored(layers.coatRoughness, material.occlusion, light, at.coat, surface, v);
         passes *= 1.0 - coated;
     }
     shown.through *= passes;

@@ -197,6 +197,45 @@ vec3 studioScattered(float occlusion, Incident light, vec3 n, vec3 surface) {
            studioAmbient(light, n, surface) * occlusion;
 }
 
+/// How far light has come through the figure, from where it went in. A map knows where it last went in: the air between two
+/// parts counts as if it were the figure.
+float wayInside(uint light, vec3 position, vec3 n, vec3 noise) {
+#ifdef TRACED
+    float far = 2.0 * frame.target.w;
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, raysMeet, gl_RayFlagsCullNoOpaqueEXT, 0xFF, position - n * (kRayOffset * frame.target.w), 0.0,
+                          frame.lights[light].direction.xyz, far);
+    while (rayQueryProceedEXT(query)) {
+    }
+    bool met = rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
+    return met && dot(n, frame.lights[light].direction.xyz) < 0.0 ? rayQueryGetIntersectionTEXT(query, true) : 0.0;
+#else
+    vec3 at = (frame.lights[light].shadow * vec4(position, 1.0)).xyz;
+    vec2 within = areCones() ? noise.xy * (0.75 * frame.shadowTexel / frame.shadowWorld) : vec2(0.0);
+    return max(at.z - shadowDepthAt(light, at.xy + within), 0.0) * frame.shadowDepth;
+#endif
+}
+
+/// Irradiance of light that has gone through, as a white surface would have it. In a volume it spreads, and most
+/// comes out near where it went in: a ball sends out as much as it takes in. So light reaches behind the edge of shadows, red
+/// farther through skin than blue. extinction: MaterialUniforms::extinction.
+vec3 studioInside(Incident light, vec4 extinction, vec3 position, vec3 n, vec3 noise) {
+    bool thin = extinction.w == 0.0;
+    vec3 inside = studioAmbient(light, thin ? -n : n, n);
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        vec4 color = frame.lights[i].color;
+        if (uint(color.w) == kLightSky)
+            continue;
+        noise = nextNoise(noise);
+        float nl = dot(n, frame.lights[i].direction.xyz);
+        if (thin && nl < 0.0)
+            inside += color.rgb * (-nl * lightVisibility(i, position - n * (frame.shadowTexel * 1.6)));
+        else if (!thin)
+            inside += color.rgb * exp(-extinction.rgb * wayInside(i, position, n, noise)) * (0.1875 * (1.0 + nl) * (1.0 + nl));
+    }
+    return inside;
+}
+
 /// Radiance of the studio itself, besides key and rim; seen: environmentAt().
 vec3 studioWalls(vec3 r, vec4 seen) {
     return kOverhead * seen.z + mix(kFloor * (1.2 + 0.5 * min(r.y, 0.0)), kWalls * (1.15 - 0.35 * max(r.y, 0.0)), seen.w);
@@ -214,6 +253,24 @@ vec3 studioMirrored(float roughness, float occlusion, Incident light, vec3 n, ve
     vec2 risen = smoothstep(-0.2, 0.2, vec2(dot(surface, frame.keyDirection.xyz), dot(surface, frame.rimDirection.xyz)));
     seen.xy *= risen * frame.environment.zw;
     return frame.keyColor.rgb * light.key * seen.x + frame.rimColor.rgb * light.rim * seen.y + studioWalls(r, seen) * open;
+}
+
+/// The same if the mirror is rougher along a direction: the mean of mirrors that are turned that way, by the slopes that GGX has
+/// there. stretch: that unit vector; w: glTF's strength.
+vec3 studioMirroredAlong(vec4 stretch, float roughness, float occlusion, Incident light, vec3 n, vec3 surface, vec3 v, vec3 noise) {
+    const uint kTurns = 6u;
+    float along = mix(roughness * roughness, 1.0, stretch.w * stretch.w); // alpha of GGX
+    float within = areCones() ? fract(noise.z + 0.5) : 0.5;
+    vec3 sum = vec3(0.0);
+    float all = 1e-4;
+    for (uint i = 0u; i < kTurns; ++i) {
+        float share = 2.0 * (float(i) + within) / float(kTurns) - 1.0;
+        vec3 turned = normalize(n + stretch.xyz * (along * share * inversesqrt(max(1.0 - share * share, 0.02))));
+        float seen = max(dot(turned, v), 0.0);
+        sum += seen * studioMirrored(roughness, occlusion, light, turned, surface, v);
+        all += seen;
+    }
+    return sum / all;
 }
 
 /// What ground glass sends on of the light behind it: of the studio there about half, as the other half goes back.

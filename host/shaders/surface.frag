@@ -72,6 +72,15 @@ vec3 shownTangent(vec3 front) {
     return mappedNormalHere(front, inPosition, placed(kNormal, inUvs), vec3(1.0, 0.0, 0.0));
 }
 
+/// Which way highlights are stretched: along the surface's tangents, else as the texture coordinates lie at this pixel.
+vec3 stretchHere(Layers layers, vec3 front) {
+    if (!materialHas(kMaterialAnisotropy) || kView != kViewShaded)
+        return vec3(0.0);
+    if ((push.flags & kDrawTangents) != 0u)
+        return stretchedAlong(layers, front, inTangent.xyz, inTangent.w);
+    return mappedNormalHere(front, inPosition, placed(kAnisotropy, inUvs), vec3(layers.stretch.xy, 0.0));
+}
+
 /// The material, or what the view paints in its place.
 Material paintedMaterial(vec3 albedo) {
     if (kView == kViewPatches && push.domain != kDrawMesh) {
@@ -102,6 +111,7 @@ void main() {
         coat = -coat;
     }
     Layers layers = layersAt(inUvs);
+    vec3 stretch = stretchHere(layers, front);
     vec3 segments = fwidth(inGrid);
     vec3 flatly = vec3(0.0);
     if (isFlatView(kView)) {
@@ -146,8 +156,9 @@ void main() {
             light = gatherLight(inPosition, n, kLookAsFits, pixelNoise(gl_FragCoord.xy));
         else if (areCones() && verticesDisagree())
             light = gatherLight(inPosition, n, kLookIntoCones, pixelNoise(gl_FragCoord.xy));
+        Place place = Place(inPosition, mapped, coat, n, v, stretch, pixelNoise(gl_FragCoord.xy));
         if (kView == kViewShaded && isLayered())
-            color = layeredColor(material, layeredShade(material, layers, light, mapped, coat, n, v), alpha);
+            color = layeredColor(material, layeredShade(material, layers, light, place), alpha);
         else
             color = studioTone(material, studioShade(material, light, mapped, n, v));
     }

@@ -469,6 +469,89 @@ TEST_F(MaterialPictureTest, SheenBrightensWhatIsLookedAtFromAside) {
     EXPECT_LE(furthest(middle, at(flatColor(black), 100)), 25);
 }
 
+/// How much wider than high the bright places of a picture lie.
+double wideness(const Picture& picture) {
+    double all = 0, x1 = 0, y1 = 0, x2 = 0, y2 = 0;
+    for (uint32_t y = 50; y < 150; ++y) {
+        for (uint32_t x = 70; x < 170; ++x) {
+            const double bright = std::max(colorAt(picture, x, y).y - 150, 0);
+            all += bright;
+            x1 += bright * x, y1 += bright * y;
+            x2 += bright * x * x, y2 += bright * y * y;
+        }
+    }
+    return std::sqrt((x2 / all - x1 * x1 / (all * all)) / (y2 / all - y1 * y1 / (all * all)));
+}
+
+TEST_F(MaterialPictureTest, AnisotropyStretchesHighlights) {
+    SceneFile ball;
+    ball.meshes = {test::ballMesh(glm::vec3(0.0f), 0.8f, 6, 0)};
+    const auto drawn = [&](const std::string& members, bool cage) {
+        ball.materials = {R"({"pbrMetallicRoughness":{"metallicFactor":1,"roughnessFactor":0.3},"extensions":)"
+                          R"({"KHR_materials_anisotropy":{)" +
+                          members + "}}}"};
+        return draw(ball, facing(), cage);
+    };
+    for (const bool cage : {false, true}) {
+        const double even = wideness(drawn("", cage));
+        const double across = wideness(drawn(R"("anisotropyStrength":0.8)", cage));
+        const double along = wideness(drawn(R"("anisotropyStrength":0.8,"anisotropyRotation":1.5708)", cage));
+        EXPECT_GT(across, 1.2 * even) << "to the right, where the first coordinate grows";
+        EXPECT_LT(along, even / 1.2) << "up";
+        EXPECT_EQ(drawn(R"("anisotropyRotation":1)", cage).rgba, drawn("", cage).rgba)
+            << "no strength changes no pixel";
+    }
+}
+
+TEST_F(MaterialPictureTest, LightThatGoesIntoAVolumeComesOutBehindTheEdgeOfShadow) {
+    SceneFile ball;
+    ball.meshes = {test::ballMesh(glm::vec3(0.0f), 0.8f, 6, 0)};
+    const std::string through = R"({"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.8,0.8,1],"metallicFactor":0},)"
+                                R"("extensions":{"KHR_materials_volume":{"thicknessFactor":1.6,)"
+                                R"("attenuationDistance":0.2,"attenuationColor":[0.8,0.1,0.02]},)"
+                                R"("KHR_materials_diffuse_transmission":{"diffuseTransmissionColorFactor":[1,1,1])";
+    ball.materials = {through + "}}}"};
+    const Picture bare = draw(ball, facing());
+    ball.materials = {through + R"(,"diffuseTransmissionFactor":0.8}}})"};
+    for (const bool cage : {false, true}) {
+        const Picture picture = draw(ball, facing(), cage);
+        int reddest = 0;
+        for (uint32_t step = 0; step < 60; ++step) { // from the key's side to the other
+            const glm::ivec3 color = colorAt(picture, 90 + step, 70 + step);
+            reddest = std::max(reddest, color.x - color.z);
+        }
+        EXPECT_GT(reddest, 25);
+        EXPECT_LE(furthest(colorAt(picture, 85, 65), colorAt(bare, 85, 65)), 60) << "towards the key it is white still";
+    }
+}
+
+TEST_F(MaterialPictureTest, LeavesShowLightFromBehind) {
+    const auto middle = [](const std::string& members) {
+        return middleOf(draw(square(layered("[0.2,0.2,0.2,1]", "diffuse_transmission", members)), facing()));
+    };
+    const glm::ivec3 bare = middle(R"("diffuseTransmissionColorFactor":[0,1,0])");
+    const glm::ivec3 leaf = middle(R"("diffuseTransmissionFactor":1,"diffuseTransmissionColorFactor":[0.1,1,0.1])");
+    EXPECT_LT(std::abs(bare.x - bare.y), 25);
+    EXPECT_GT(leaf.y, bare.y + 25);
+    EXPECT_GT(leaf.y, leaf.x + 40) << "in its own color";
+}
+
+TEST_F(MaterialPictureTest, ThickGlassTakesAwayLight) {
+    const auto behind = [](const std::string& volume) {
+        SceneFile file = square(unlitColor("[0.5,0.5,0.5,1]"));
+        file.materials.push_back(R"({"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0},"extensions":)"
+                                 R"({"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_volume":{)" +
+                                 volume + "}}}");
+        file.meshes.push_back(test::squareMesh(glm::vec3(0.0f, 0.0f, 0.3f), kSquareHalf, 4, 1));
+        return middleOf(draw(file, facing()));
+    };
+    const std::string green = R"("attenuationDistance":0.5,"attenuationColor":[0.25,1,0.25],"thicknessFactor":)";
+    const glm::ivec3 none = behind(""), thin = behind(green + "0"), thick = behind(green + "1");
+    EXPECT_EQ(thin, none) << "a thin wall has no inside";
+    EXPECT_LT(thick.x, none.x - 60);
+    EXPECT_GE(thick.y, none.y - 3);
+}
+
 TEST_F(MaterialPictureTest, GlassShowsWhatIsBehindInItsColor) {
     const std::string pane = R"("transmissionFactor":1)";
     const auto scene = [&](const std::string& glass, const std::vector<Picture>& images = {}) {

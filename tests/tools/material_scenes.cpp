@@ -289,6 +289,33 @@ SceneFile ballScene() {
     return scene;
 }
 
+namespace {
+
+/// Highlights that are stretched, and what light goes into.
+void addScattered(const std::function<void(const std::string& material, uint32_t column)>& add) {
+    const auto brushed = [](const std::string& members) {
+        return R"(,"extensions":{"KHR_materials_anisotropy":{)" + members + "}}";
+    };
+    add(surface("[0.9,0.9,0.9,1]", 1.0f, 0.3f, brushed(R"("anisotropyStrength":0.8)")), 0);
+    add(surface("[0.9,0.9,0.9,1]", 1.0f, 0.3f, brushed(R"("anisotropyStrength":0.8,"anisotropyRotation":1.5708)")), 1);
+    const auto scatters = [](const std::string& through, const std::string& inside) {
+        return R"(,"extensions":{"KHR_materials_diffuse_transmission":{)" + through +
+               R"(},"KHR_materials_volume":{"thicknessFactor":0.9,)" + inside + "}}";
+    };
+    const std::string skin = "[0.9,0.51,0.33,1]";
+    add(surface(skin, 0.0f, 0.5f), 2);
+    add(surface(skin, 0.0f, 0.5f,
+                scatters(R"("diffuseTransmissionFactor":0.5,"diffuseTransmissionColorFactor":[0.92,0.47,0.31])",
+                         R"("attenuationDistance":0.1,"attenuationColor":[0.54,0.19,0.055])")),
+        3);
+    add(surface("[0.35,0.6,0.45,1]", 0.0f, 0.25f,
+                scatters(R"("diffuseTransmissionFactor":0.9,"diffuseTransmissionColorFactor":[0.5,0.9,0.65])",
+                         R"("attenuationDistance":0.6,"attenuationColor":[0.3,0.8,0.5])")),
+        4);
+}
+
+} // namespace
+
 SceneFile layerScene() {
     SceneFile scene;
     scene.images = {studMap(), checker(4, {255, 255, 255, 255}, {0, 0, 0, 255})};
@@ -329,6 +356,7 @@ SceneFile layerScene() {
     add(surface(dark, 0.0f, 0.25f), 2, 3);
     add(surface(dark, 0.0f, 0.25f, extended("ior", R"("ior":2.4)")), 3, 3);
     add(surface(dark, 0.0f, 0.25f, extended("specular", R"("specularColorFactor":[4,1.5,0.2])")), 4, 3);
+    addScattered([&](const std::string& material, uint32_t column) { add(material, column, 4); });
     scene.materials.push_back(surface("[0.8,0.8,0.8,1]", 0.0f, 0.8f));
     scene.materials.back().insert(scene.materials.back().find("{\"base") + 1, R"("baseColorTexture":{"index":1},)");
     scene.meshes.push_back(squareMesh(glm::vec3(2.2f, 1.1f, -0.9f), 0.55f, 4, scene.materials.size() - 1));
