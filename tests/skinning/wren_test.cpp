@@ -129,6 +129,56 @@ TEST_F(Wren, HasPartsShapesClipsAndMaps) {
     }
 }
 
+TEST_F(Wren, HerFaceMovesInWalkAndRun) {
+    for (const char* name : {"walk", "run"}) {
+        std::map<std::string, std::pair<float, float>> range;
+        for (const Channel& channel : clip(name).channels) {
+            if (channel.path != ChannelPath::weights) {
+                continue;
+            }
+            for (size_t i = 0; i < channel.values.size(); ++i) {
+                const std::string& shape = wren.morphs.targets[channel.firstTarget + i % channel.width()].name;
+                auto& [low, high] = range.try_emplace(shape, 1.0f, 0.0f).first->second;
+                low = std::min(low, channel.values[i]);
+                high = std::max(high, channel.values[i]);
+            }
+        }
+        EXPECT_LT(range["blink"].first, 0.1f) << name;
+        EXPECT_GT(range["blink"].second, 0.95f) << name;
+        EXPECT_GT(range["open"].second, range["open"].first + 0.05f) << name << ": she breathes";
+    }
+}
+
+TEST_F(Wren, TheSwordPassesThePouchInRun) {
+    constexpr float kClear = 0.01f;
+    const Clip& run = clip("run");
+    std::vector<uint32_t> grip, pouch;
+    for (const uint32_t v : verticesOf(part("sword"))) {
+        if (wren.cage.positions[v].x < 0.0f && wren.cage.positions[v].z < 0.08f) { // behind the blade; not the scabbard
+            grip.push_back(v);
+        }
+    }
+    for (const uint32_t v : verticesOf(part("gear"))) {
+        const glm::vec3& p = wren.cage.positions[v];
+        if (p.x < -0.05f && p.y > 0.86f && p.y < 0.94f && p.z > 0.05f) {
+            pouch.push_back(v);
+        }
+    }
+    ASSERT_GE(grip.size(), 40u);
+    ASSERT_GE(pouch.size(), 40u);
+    float nearest = 1.0f;
+    for (int frame = 0; frame <= static_cast<int>(run.duration * 60); ++frame) {
+        const std::vector<Affine> joints = palette(run, frame / 60.0);
+        for (const uint32_t a : grip) {
+            const glm::vec3 at = skinned(joints, a);
+            for (const uint32_t b : pouch) {
+                nearest = std::min(nearest, glm::length(at - skinned(joints, b)));
+            }
+        }
+    }
+    EXPECT_GT(nearest, kClear);
+}
+
 TEST_F(Wren, FeetStayAboveTheGround) {
     const std::set<uint32_t> boots = verticesOf(part("boots"));
     for (const Clip& of : wren.clips) {
