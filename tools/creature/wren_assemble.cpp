@@ -34,10 +34,10 @@ void addFaces(cage::Cage& cage, const Cage& piece, uint32_t base, uint32_t part)
         for (size_t i = 0; i < face.points.size(); ++i) {
             cage.faceVertices.push_back(base + static_cast<uint32_t>(face.points[i]));
             const Vec2 uv = face.uvs.empty() ? boxed(piece.position(face.points[i]), normal) : face.uvs[i];
-            const Vec2 at =
-                look.material == kFaceMaterial ? facePlace(piece.position(face.points[i])) : uv * look.density;
+            const Vec2 at = uv * look.density;
             cage.cornerUvs.push_back({rounded(at.x), rounded(at.y)});
-            cage.cornerColors.push_back({shade(look.colour.x), shade(look.colour.y), shade(look.colour.z), 1.0f});
+            const Vec3 colour = look.colour * tint(face, piece.points[static_cast<size_t>(face.points[i])], uv);
+            cage.cornerColors.push_back({shade(colour.x), shade(colour.y), shade(colour.z), 1.0f});
         }
         cage.faceStarts.push_back(cage.cornerCount());
         cage.faceMaterials.push_back(look.material);

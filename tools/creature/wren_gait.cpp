@@ -57,6 +57,13 @@ void step(Pose& pose, const std::string& side, double phase, const Gait& gait) {
                eulerDegrees(0, out, 0) * eulerDegrees(heel, 0, 0), -heel * toes);
 }
 
+// Eyes stay with what they look at while the head turns under them: degrees to her left, and down.
+void look(Pose& pose, double aside, double down) {
+    for (const char* side : {".L", ".R"}) {
+        pose.turn(std::string("eye") + side, down, aside, 0);
+    }
+}
+
 Clip walk(const Skeleton& skeleton) {
     Clip clip{"walk", 30, {}};
     constexpr int kFrames = 32;
@@ -95,8 +102,11 @@ Clip walk(const Skeleton& skeleton) {
         drape(pose);
         pose.turn("scabbard", -3 * bob + 5 * swing(phase - 0.1), 0, 2 * wave(phase - 0.1));
         clip.frames.push_back(pose);
-        clip.morphs["smile"].push_back(0.25);
-        clip.morphs["blink"].push_back(Curve({{0.55, 0}, {0.62, 1}, {0.66, 1}, {0.76, 0}})(phase));
+        look(pose, 3 * swing(phase - 0.04), 1.2 * std::cos(2 * kTurn * (phase - 0.42)));
+        clip.morphs["smile"].push_back(0.26 + 0.07 * wave(phase + 0.1));
+        clip.morphs["open"].push_back(0.05 + 0.04 * wave(phase - 0.2));
+        clip.morphs["brows"].push_back(0.14 + 0.12 * wave(phase + 0.35));
+        clip.morphs["blink"].push_back(0.05 + 0.95 * Curve({{0.55, 0}, {0.62, 1}, {0.66, 1}, {0.76, 0}})(phase));
     }
     hang(clip, skeleton, true, 0.0012);
     return clip;
@@ -129,8 +139,7 @@ Clip run(const Skeleton& skeleton) {
         place(pose, ".L", arm(1, back));
         Hand right = arm(-1, -back);
         right.thumb = mix(right.thumb, Vec3{-0.35, 0.75, 0.62}, 0.8);
-        // Past the pouch. wren.glb keeps the run that recordings are pinned to.
-        right.wrist.x -= skeleton.springs ? 0.045 : 0.0;
+        right.wrist.x -= 0.045; // past the pouch
         place(pose, ".R", right);
         curl(pose, ".R", 1, 1);
         curl(pose, ".L", 0.75, 0.7);
@@ -139,8 +148,14 @@ Clip run(const Skeleton& skeleton) {
         drape(pose);
         pose.turn("scabbard", -6 * bob + 9 * swing(phase - 0.1), 0, 3 * wave(phase - 0.1));
         clip.frames.push_back(pose);
-        clip.morphs["open"].push_back(0.18 + 0.10 * bob);
-        clip.morphs["frown"].push_back(0.35);
+        look(pose, 5 * swing(phase - 0.04), -1.5 * std::cos(2 * kTurn * (phase - 0.30)));
+        // A breath a cycle. Feet that land are felt in lids and brow.
+        const double landing = std::pow(0.5 - 0.5 * bob, 2);
+        clip.morphs["open"].push_back(0.26 + 0.17 * wave(phase - 0.1));
+        clip.morphs["frown"].push_back(0.28 + 0.22 * landing);
+        clip.morphs["smile"].push_back(0.10 * (1 - landing));
+        clip.morphs["blink"].push_back(
+            std::max(0.06 + 0.16 * landing, Curve({{0.50, 0}, {0.59, 1}, {0.64, 1}, {0.76, 0}})(phase)));
     }
     hang(clip, skeleton, true, 0.0055);
     return clip;

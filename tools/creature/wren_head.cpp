@@ -2,6 +2,7 @@
 #include "wren.h"
 
 #include "pose.h"
+#include "wren_palette.h"
 
 #include <glm/geometric.hpp>
 
@@ -378,7 +379,7 @@ void addBrow(Cage& cage, const Body& face, const FaceShape& shape) {
         y += 0.010 * shape.brows + shape.frown * (-0.009 * (1 - s) + 0.002 * s) + 0.002 * shape.smile * s;
         StrapPoint hit = face.cast({x, y, 0.3}, {0, 0, -1});
         const double wide = 0.0054 * std::pow(1 - std::pow(std::abs(s - 0.32) / 0.70, 2.2), 1.0) + 0.0010;
-        rings.push_back({hit.at + hit.out * 0.0012, hit.out, wide, 0.0026});
+        rings.push_back({hit.at + hit.out * 0.0008, hit.out, wide, 0.0018});
     }
     lock(cage, rings);
 }
@@ -427,8 +428,25 @@ void grow(Cage& cage) {
     }
 }
 
+namespace {
+
+// The face's picture lies on the surface: fitLimits() moves the cage's points off it.
+void layPicture(Cage& cage) {
+    for (Face& face : cage.faces) {
+        if (swatch(face.part).material == kFaceMaterial) {
+            face.uvs.clear();
+            for (const int point : face.points) {
+                face.uvs.push_back(facePlace(grown(cage.position(point))));
+            }
+        }
+    }
+}
+
+} // namespace
+
 Cage modelHead(const FaceShape& shape) {
     Cage cage = Head(shape).build();
+    layPicture(cage);
     fitLimits(
         cage, [&](size_t i) { return cage.points[i].part == Part::Head; }, 4);
     const Body face(cage);

@@ -1,6 +1,7 @@
 #include "wren_palette.h"
 
 #include "mixing.h"
+#include "texture.h"
 #include "wren.h"
 #include "wren_textures.h"
 
@@ -12,14 +13,24 @@ namespace supple::creature::wren {
 
 namespace {
 
-enum Kind : uint32_t { Face, Skin, Eyes, Hair, Cloth, Band, Leather, StrapLeather, Steel, Brass, Wet };
+// Light goes into skin and comes out beside where it went in, red the farthest. Down lightens its edge.
+void makeSkin(cage::Material& material, glm::vec3 inside) {
+    cage::MaterialLayers& layers = material.layers;
+    layers.diffuseTransmissionFactor = 0.45f;
+    layers.diffuseTransmissionColorFactor = inside;
+    layers.thicknessFactor = 0.05f;
+    layers.attenuationDistance = 0.005f;
+    layers.attenuationColor = {0.54f, 0.19f, 0.055f};
+    layers.sheenColorFactor = {0.12f, 0.085f, 0.07f};
+    layers.sheenRoughnessFactor = 0.5f;
+}
+
+enum Kind : uint32_t { Face, Skin, Eyes, Hair, Cloth, Band, Leather, StrapLeather, Steel, Brass, Wet, Wool };
 
 } // namespace
 
 Swatch swatch(Part part) {
     switch (part) {
-    case Part::Lip:
-        return {Face, {0.80, 0.50, 0.50}};
     case Part::Mouth:
         return {Wet, srgb(0x5a1a20)};
     case Part::Nostril:
@@ -27,9 +38,9 @@ Swatch swatch(Part part) {
     case Part::Tooth:
         return {Wet, srgb(0xf4efe4)};
     case Part::Lash:
-        return {Hair, srgb(0x24120c)};
+        return {Hair, srgb(0x24120c), 12};
     case Part::Brow:
-        return {Hair, srgb(0x7c3a1e)};
+        return {Hair, srgb(0x8a4424), 26};
     case Part::Hair:
         return {Hair, srgb(0xae4a22), 12};
     case Part::Ribbon:
@@ -42,9 +53,9 @@ Swatch swatch(Part part) {
     case Part::Collar:
         return {Band, srgb(0xe8d3a0), 14};
     case Part::Scarf:
-        return {Cloth, srgb(0xd9952f), 15};
+        return {Wool, srgb(0xd9952f), 15};
     case Part::ScarfFringe:
-        return {Cloth, srgb(0xa0451f), 15};
+        return {Wool, srgb(0xa0451f), 15};
     case Part::Trousers:
         return {Cloth, srgb(0x5a5047), 26};
     case Part::KneePatch:
@@ -98,12 +109,27 @@ std::vector<cage::Material> materials() {
         material.normalTexture = texture(normal);
         material.normalScale = scale;
     };
-    add("face", 0, 0.50f).baseColorTexture = texture(Picture::Face);
-    add("skin", 0, 0.50f);
-    add("eyes", 0, 0.05f).baseColorTexture = texture(Picture::Eye);
-    cage::Material& hair = add("hair", 0, 0.48f);
+    cage::Material& face = add("face", 0, 1.0f);
+    face.baseColorTexture = texture(Picture::Face);
+    face.metallicRoughnessTexture = texture(Picture::FaceRoughness);
+    wear(face, Picture::SkinNormal, 0.30f);
+    face.normalTexture.scale = {18, 23};
+    makeSkin(face, {1.0f, 0.92f, 0.92f});
+    face.layers.diffuseTransmissionColorTexture = texture(Picture::Face);
+    cage::Material& skin = add("skin", 0, 0.54f);
+    wear(skin, Picture::SkinNormal, 0.35f);
+    skin.normalTexture.scale = {50, 50};
+    makeSkin(skin, {0.92f, 0.47f, 0.31f});
+    cage::Material& eyes = add("eyes", 0, 0.45f);
+    eyes.baseColorTexture = texture(Picture::Eye);
+    wear(eyes, Picture::IrisNormal, 1.0f);
+    eyes.layers.clearcoatFactor = 1.0f; // the cornea
+    eyes.layers.clearcoatRoughnessFactor = 0.03f;
+    eyes.layers.clearcoatNormalTexture = texture(Picture::CorneaNormal);
+    cage::Material& hair = add("hair", 0, 0.42f);
     hair.baseColorTexture = texture(Picture::Strands);
-    wear(hair, Picture::StrandsNormal, 0.45f);
+    wear(hair, Picture::StrandsNormal, 0.6f);
+    hair.layers.anisotropyStrength = 0.75f; // across the strands, where their texture's first coordinate grows
     cage::Material& cloth = add("cloth", 0, 0.86f);
     cloth.baseColorTexture = texture(Picture::Weave);
     wear(cloth, Picture::WeaveNormal, 0.7f);
@@ -122,7 +148,22 @@ std::vector<cage::Material> materials() {
         wear(metal, Picture::WornNormal, 0.6f);
     }
     add("wet", 0, 0.25f);
+    cage::Material& wool = add("wool", 0, 0.9f);
+    wool.baseColorTexture = texture(Picture::Weave);
+    wear(wool, Picture::WeaveNormal, 0.9f);
+    wool.layers.sheenColorFactor = {0.30f, 0.24f, 0.14f};
+    wool.layers.sheenRoughnessFactor = 0.55f;
     return list;
+}
+
+Vec3 tint(const creature::Face& face, const Point& point, const Vec2& uv) {
+    if (face.part != Part::Hair) {
+        return Vec3(1);
+    }
+    // No lock is quite the colour of the next. Roots are darker, tips have seen the sun.
+    const double own = tiledNoise(point.shell * 1.7 + 0.4, 0.3, 512, 91);
+    const Vec3 lock = own > 0 ? mix(Vec3(1), Vec3(1.30, 1.42, 1.30), own) : mix(Vec3(1), Vec3(0.66, 0.58, 0.60), -own);
+    return lock * mix(0.62, 1.0, ramp(0.0, 0.07, uv.y)) * mix(Vec3(1), Vec3(1.18, 1.28, 1.2), ramp(0.14, 0.30, uv.y));
 }
 
 Vec2 facePlace(const Vec3& point) {

@@ -15,6 +15,8 @@ struct Swatch {
 
 constexpr uint32_t kFaceMaterial = 0;
 Swatch swatch(Part part);
+// What multiplies that colour at one corner of a face; `uv` in metres.
+Vec3 tint(const Face& face, const Point& point, const Vec2& uv);
 // Where the face's picture shows a point, and back: the picture is the head from the front.
 Vec2 facePlace(const Vec3& point);
 Vec3 facePoint(const Vec2& place);

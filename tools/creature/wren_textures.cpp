@@ -15,9 +15,25 @@ namespace supple::creature::wren {
 
 namespace {
 
+constexpr double kIris = 0.560; // its radius in the eye's picture, of the eyeball's
+
 double blob(double x, double y, double cx, double cy, double rx, double ry) {
     const double dx = (x - cx) / rx, dy = (y - cy) / ry;
     return std::exp(-dx * dx - dy * dy);
+}
+
+// 1 on the lips, with soft edges; `shade` is 1 where they meet and under the upper one's edge.
+struct Lips {
+    double share, shade;
+};
+Lips lips(double x, double y) {
+    const double s = std::min(x / 0.0268, 1.0);
+    const Curve high{{0, 0.0062}, {0.33, 0.0076}, {0.70, 0.0050}, {1, 0.0006}};
+    const Curve low{{0, 0.0090}, {0.4, 0.0084}, {0.75, 0.0054}, {1, 0.0006}};
+    const double off = y - (kMouthLine + 0.0022 * s * s - 0.0008 * (1 - s));
+    const double t = off > 0 ? off / high(s) : -off / low(s);
+    return {ramp(1.20, 0.82, t) * ramp(1.06, 0.90, x / 0.0268),
+            ramp(0.0016, 0.0, std::abs(off)) + 0.35 * ramp(0, 0.7, t) * (off > 0 ? 1 : 0)};
 }
 
 // The face from the front, as facePlace() lays it.
@@ -26,7 +42,11 @@ Vec3 face(double u, double v) {
     const double x = std::abs(p.x), y = p.y;
     const Vec3 skin = srgb(0xf3bd9c);
     const Vec3 warm = srgb(0xe0705c), dark = srgb(0x9a4a38), lip = srgb(0xc25a52);
-    Vec3 c = skin;
+    // Yellower where bone is near, paler where the skin is thin; a mottle that no two places share.
+    Vec3 c = mix(skin, srgb(0xf4c79c), 0.35 * ramp(1.50, 1.56, y));
+    c = mix(c, srgb(0xe9b09a), 0.30 * ramp(1.40, 1.36, y));
+    c = c *
+        (1 + 0.025 * tiledNoise(p.x * 60 + 9.1, p.y * 60, 512, 13) + 0.02 * tiledNoise(p.x * 170, p.y * 170, 512, 14));
     c = mix(c, warm, 0.42 * blob(x, y, 0.066, 1.424, 0.030, 0.019));      // cheeks
     c = mix(c, warm, 0.40 * blob(x, y, 0, 1.430, 0.017, 0.013));          // tip of the nose
     c = mix(c, warm, 0.16 * blob(x, y, 0, 1.345, 0.022, 0.012));          // chin
@@ -37,7 +57,9 @@ Vec3 face(double u, double v) {
     c = mix(c, dark, 0.22 * ramp(1.545, 1.590, y + 0.25 * x));            // under the hair
     c = mix(c, warm, 0.30 * ramp(0.112, 0.125, x) * ramp(1.42, 1.44, y)); // ears
     c = mix(c, lip, 0.14 * blob(x, y, 0, 1.386, 0.034, 0.018));           // round the mouth
-    c = mix(c, srgb(0x7a2f18), ramp(1.632, 1.640, y));                    // what shows between the locks
+    const Lips on = lips(x, y);
+    c = mix(c, mix(srgb(0xcf7468), srgb(0x9c4440), std::min(1.0, on.shade)), 0.85 * on.share);
+    c = mix(c, srgb(0x7a2f18), ramp(1.632, 1.640, y)); // what shows between the locks
     // Freckles over nose and cheeks.
     const Vec2 cell = tiledCells(p.x * 150 + 40, y * 150, 512, 5);
     const double size = 0.16 + 0.10 * tiledNoise(p.x * 150 + 40.5, y * 150 + 0.5, 512, 9);
@@ -50,21 +72,53 @@ Vec3 face(double u, double v) {
 Vec3 eye(double u, double v) {
     const double x = (u - 0.5) * 2.1, y = (0.5 - v) * 2.1;
     const double r = std::hypot(x, y), a = std::atan2(y, x);
-    const double iris = 0.560, pupil = 0.270;
+    const double pupil = 0.270;
     Vec3 white = mix(srgb(0xf7f1ec), srgb(0xd9a79c), 0.55 * ramp(0.62, 0.92, std::abs(x)));
     white = mix(white, srgb(0x7c6a70), 0.55 * ramp(0.18, 0.62, y));
     const double rays = 0.5 + 0.5 * std::sin(a * 23 + 2.2 * std::sin(a * 7) + 3 * std::sin(a * 3 + 1));
     const double fine = 0.5 + 0.5 * std::sin(a * 61 + 3 * std::sin(a * 11));
-    const double s = std::clamp((r - pupil) / (iris - pupil), 0.0, 1.0);
+    const double s = std::clamp((r - pupil) / (kIris - pupil), 0.0, 1.0);
     Vec3 colour = mix(srgb(0x9c7a2c), srgb(0x2f7a5c), ramp(0.05, 0.55, s + 0.22 * (rays - 0.5)));
     colour = mix(colour, srgb(0x6fc79a), 0.50 * (0.6 * rays + 0.4 * fine) * ramp(0.12, 0.45, s) * ramp(0.98, 0.6, s));
     colour = colour * mix(1.25, 0.42, ramp(-0.30, 0.40, y)); // light gathers below
     colour = mix(colour, srgb(0x0d2a26), 0.92 * ramp(0.74, 1.0, s));
     colour = mix(srgb(0x060507), colour, ramp(pupil - 0.015, pupil + 0.035, r));
-    Vec3 c = mix(colour, white, ramp(iris - 0.015, iris + 0.025, r));
-    // The light that every eye catches.
-    c = mix(c, Vec3(1.0), ramp(0.105, 0.075, std::hypot(x + 0.175, y - 0.205)));
-    return mix(c, Vec3(0.9), 0.75 * ramp(0.055, 0.030, std::hypot(x - 0.16, y + 0.19)));
+    return mix(colour, white, ramp(kIris - 0.030, kIris + 0.040, r));
+}
+
+// The iris is a bowl, with rays, below the cornea.
+double irisHeight(double u, double v) {
+    const double x = (u - 0.5) * 2.1, y = (0.5 - v) * 2.1;
+    const double r = std::hypot(x, y), a = std::atan2(y, x);
+    const double s = std::min(r / kIris, 1.0);
+    const double rays =
+        std::sin(a * 23 + 2.2 * std::sin(a * 7) + 3 * std::sin(a * 3 + 1)) * ramp(0.48, 0.6, s) * ramp(1.0, 0.85, s);
+    return s * s + 0.05 * rays;
+}
+
+// The cornea stands out as a smaller ball from a larger one.
+double corneaHeight(double u, double v) {
+    const double r = std::hypot(u - 0.5, v - 0.5) * 2.1 / (kIris * 1.12);
+    return r < 1 ? 1 - r * r : std::pow(std::max(0.0, 1.5 - r) / 0.5, 2) - 1;
+}
+
+// How rough the skin of the face is: lips are moist; brow, nose and chin shine.
+double faceRoughness(double u, double v) {
+    const Vec3 p = facePoint({u, v});
+    const double x = std::abs(p.x), y = p.y;
+    double rough = 0.51 + 0.05 * tiledNoise(p.x * 90, p.y * 90, 512, 15);
+    rough -= 0.10 * blob(x, y, 0, 1.445, 0.018, 0.035);     // nose
+    rough -= 0.08 * blob(x, y, 0, 1.545, 0.045, 0.030);     // forehead
+    rough -= 0.05 * blob(x, y, 0, 1.350, 0.020, 0.012);     // chin
+    rough -= 0.06 * blob(x, y, 0.066, 1.440, 0.026, 0.016); // cheekbone
+    return mix(rough, 0.34 + 0.05 * tiledNoise(p.x * 500, p.y * 60, 512, 16), lips(x, y).share);
+}
+
+// Pores, and what lies between them.
+double pores(double u, double v) {
+    const Vec2 cells = tiledCells(u * 17, v * 17, 17, 17);
+    return -0.7 * ramp(0.34, 0.05, cells.x) + 0.45 * tiledNoise(u * 9, v * 9, 9, 18) +
+           0.35 * tiledNoise(u * 26, v * 26, 26, 19);
 }
 
 // A plain weave of sixteen threads each way a tile.
@@ -116,13 +170,13 @@ double strapHeight(double u, double v) {
     return 0.35 * leather(u, v) - groove + 1.7 * stitch(u, v) - 0.8 * ramp(0.06, 0.0, edge);
 }
 
-// Hair runs along v.
+// Hair runs along v: bundles, and the single hairs of which they are.
 double strands(double u, double v) {
     const double bend = 0.012 * std::sin(2 * kPi * v) + 0.006 * std::sin(4 * kPi * v + 1);
     double sum = 0;
-    for (const int count : {9, 17, 31, 53}) {
+    for (const int count : {9, 19, 43, 89}) {
         sum += tiledNoise((u + bend) * count, v * 2, count, 2, static_cast<unsigned>(60 + count)) *
-               (count < 20 ? 0.55 : 0.42);
+               (count < 20 ? 0.34 : 0.52);
     }
     return sum;
 }
@@ -167,10 +221,16 @@ std::vector<cage::Image> pictures() {
             return mix(gray(0.86 + 0.08 * leather(u, v)), Vec3(3.2, 2.6, 1.7), 0.9 * stitch(u, v));
         }));
     add("strap normal", normalPng(128, 128, 1.6, strapHeight));
-    add("strands", paintPng(128, 128, true, [&](double u, double v) { return gray(0.80 + 0.24 * strands(u, v)); }));
-    add("strands normal", normalPng(128, 128, 2.6, strands));
+    add("strands", paintPng(256, 64, true, [&](double u, double v) { return gray(0.80 + 0.24 * strands(u, v)); }));
+    add("strands normal", normalPng(256, 64, 2.6, strands));
     add("worn", paintPng(128, 128, false, [&](double u, double v) { return Vec3{1, 0.30 - 0.22 * worn(u, v), 1}; }));
     add("worn normal", normalPng(128, 128, 0.8, worn));
+    add("face roughness", paintPng(128, 128, false, [](double u, double v) {
+            return Vec3{1, faceRoughness(u, v), 0};
+        }));
+    add("skin normal", normalPng(128, 128, 1.1, pores));
+    add("iris normal", normalPng(128, 128, 9, irisHeight));
+    add("cornea normal", normalPng(64, 64, 4.5, corneaHeight));
     return list;
 }
 

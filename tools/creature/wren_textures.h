@@ -22,7 +22,11 @@ enum class Picture : uint32_t {
     Strands,
     StrandsNormal,
     Worn,
-    WornNormal
+    WornNormal,
+    FaceRoughness,
+    SkinNormal,
+    IrisNormal,
+    CorneaNormal
 };
 std::vector<cage::Image> pictures();
 
