@@ -255,8 +255,8 @@ struct MaterialUniforms {
     float unused;
 };
 
-// A vertex of a prop: position and roughness, normal and how much it shines by itself, color and metallic. Of a decal, one per
-// point: u, v, opacity, and how far it is moved towards the eye besides.
+// A vertex of a prop: position and roughness, normal and how much it shines by itself, color and metallic. Of a decal,
+// one per point: u, v, opacity, and how far it is moved towards the eye besides.
 struct AttachmentVertex {
     vec4 a;
     vec4 b;
