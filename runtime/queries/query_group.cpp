@@ -120,12 +120,6 @@ uint32_t QueryGroup::lanes() const {
     return pieces_->count * instances;
 }
 
-gpu::MemoryUse QueryGroup::memoryUse() const {
-    gpu::MemoryUse use = boxes_.use();
-    forStatics([&](const gpu::StaticBuffers& table) { use += table.use(); });
-    return use;
-}
-
 template <class F>
 void QueryGroup::forWindows(const Batch& batch, F&& record) const {
     const InstanceWindows& windows = source_.listing->windows();

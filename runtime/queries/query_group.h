@@ -60,7 +60,6 @@ public:
     [[nodiscard]] const std::shared_ptr<QueryPieces>& pieces() const { return pieces_; }
     /// How many lanes its largest frame has, which own a hit by number.
     [[nodiscard]] uint64_t mostLanes() const;
-    [[nodiscard]] gpu::MemoryUse memoryUse() const;
 
     /// What all windows of a batch have in common, and what is counted over them.
     struct Batch {

@@ -61,21 +61,21 @@ SUPPLE_SHARED_CONST kFindOwner = 1u; // the first lane that has it
 
 struct QueryPush {
     uint pieceCount;
-    uint firstEntry; // of the window, in the list of instances
+    uint firstEntry;    // of the window, in the list of instances
     uint instanceCount; // refine: slots of the window
-    uint cageStride; // vertices from one instance to the next
-    uint vertexCount; // of a cage
+    uint cageStride;    // vertices from one instance to the next
+    uint vertexCount;   // of a cage
     uint firstRay;
-    uint rayCount; // behind the last
-    uint firstBox;  // of the window, counted in instances
-    uint firstLane; // of the window, among the lanes of all windows that may own a hit
-    uint work;         // kFindLeast or kFindOwner
-    uint group;        // its number in the pool
-    uint firstSlot;    // of the window
+    uint rayCount;      // behind the last
+    uint firstBox;      // of the window, counted in instances
+    uint firstLane;     // of the window, among the lanes of all windows that may own a hit
+    uint work;          // kFindLeast or kFindOwner
+    uint group;         // its number in the pool
+    uint firstSlot;     // of the window
     uint firstTriangle; // refine: the first hit of a triangle, in rays
     uint rate;          // refine: of grids and meshes
     uint writesMisses;  // 1: of all windows this one writes the rays that meet nothing
-    float reach;       // the largest of the pieces
+    float reach;        // the largest of the pieces
 };
 
 SUPPLE_SHARED_END

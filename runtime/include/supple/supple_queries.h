@@ -116,8 +116,8 @@ typedef struct SuppleQueryDesc {
  * pool; the others keep their numbers.
  *
  * Errors: a stale handle; flags; no groups, or one twice; no rays or too many; what suppleCreatePointSet refuses of a
- * group; pieces that hang on more than 4096 vertices or need more memory than the device binds; more rays, instances
- * and pieces than 32 bits number together; memory. SUPPLE_ERROR_UNSUPPORTED if the library was built with
+ * group; pieces that hang on more than 4096 vertices or need more memory than the device binds; more pieces on all
+ * instances than 32 bits number; memory. SUPPLE_ERROR_UNSUPPORTED if the library was built with
  * SUPPLE_WITH_CPU=OFF. `out->id` is 0 then. */
 SUPPLE_API SuppleResult suppleCreateQueryPool(SuppleContext context, const SuppleQueryPoolDesc* desc,
                                               SuppleQueryPool* out);
