@@ -490,75 +490,79 @@ private:
         }
     }
 
+    static void readNumbers(const Value* extension, std::initializer_list<std::pair<const char*, float*>> all) {
+        for (const auto& [name, number] : all) {
+            *number = extension == nullptr ? *number : numberIn(*extension, name, *number);
+        }
+    }
+
+    static void readColor(const Value* extension, const char* name, float (&to)[3]) {
+        const Value* list = extension == nullptr ? nullptr : member(*extension, name);
+        for (int c = 0; list != nullptr && list->ArrayLen() == 3 && c < 3; ++c) {
+            to[c] = static_cast<float>(list->Get(c).GetNumberAsDouble());
+        }
+    }
+
+    void readTextures(const Value* extension, const std::string& element,
+                      std::initializer_list<std::pair<const char*, SuppleTextureInfo*>> all) {
+        for (const auto& [name, texture] : all) {
+            const Value* info = extension == nullptr ? nullptr : member(*extension, name);
+            if (info != nullptr && info->IsObject()) {
+                const Value* extensions = member(*info, "extensions");
+                *texture = textureOf(indexIn(*info, "index"), std::max(indexIn(*info, "texCoord"), 0),
+                                     extensions == nullptr ? nullptr : member(*extensions, "KHR_texture_transform"),
+                                     element + " " + name);
+            }
+        }
+    }
+
     /// What the extensions of a material say.
     SuppleMaterialLayers layersOf(const tinygltf::Material& from, const std::string& element) {
         SuppleMaterialLayers layers = defaultMaterialLayers();
-        const auto numbers = [&](const char* extension, std::initializer_list<std::pair<const char*, float*>> all) {
-            const Value* values = extensionOf(from.extensions, extension);
-            for (const auto& [name, number] : all) {
-                *number = values == nullptr ? *number : numberIn(*values, name, *number);
-            }
-        };
-        const auto color = [&](const char* extension, const char* name, float(&to)[3]) {
-            const Value* values = extensionOf(from.extensions, extension);
-            const Value* list = values == nullptr ? nullptr : member(*values, name);
-            for (int c = 0; list != nullptr && list->ArrayLen() == 3 && c < 3; ++c) {
-                to[c] = static_cast<float>(list->Get(c).GetNumberAsDouble());
-            }
-        };
-        const auto textures = [&](const char* extension,
-                                  std::initializer_list<std::pair<const char*, SuppleTextureInfo*>> all) {
-            const Value* values = extensionOf(from.extensions, extension);
-            for (const auto& [name, texture] : all) {
-                const Value* info = values == nullptr ? nullptr : member(*values, name);
-                if (info != nullptr && info->IsObject()) {
-                    const Value* extensions = member(*info, "extensions");
-                    *texture = textureOf(indexIn(*info, "index"), std::max(indexIn(*info, "texCoord"), 0),
-                                         extensions == nullptr ? nullptr : member(*extensions, "KHR_texture_transform"),
-                                         element + " " + name);
-                }
-            }
-        };
-        numbers("KHR_materials_clearcoat", {{"clearcoatFactor", &layers.clearcoatFactor},
-                                            {"clearcoatRoughnessFactor", &layers.clearcoatRoughnessFactor}});
-        textures("KHR_materials_clearcoat", {{"clearcoatTexture", &layers.clearcoat},
-                                             {"clearcoatRoughnessTexture", &layers.clearcoatRoughness},
-                                             {"clearcoatNormalTexture", &layers.clearcoatNormal}});
-        if (const Value* coat = extensionOf(from.extensions, "KHR_materials_clearcoat")) {
+        const auto in = [&](const char* name) { return extensionOf(from.extensions, name); };
+        readNumbers(in("KHR_materials_clearcoat"), {{"clearcoatFactor", &layers.clearcoatFactor},
+                                                    {"clearcoatRoughnessFactor", &layers.clearcoatRoughnessFactor}});
+        readTextures(in("KHR_materials_clearcoat"), element,
+                     {{"clearcoatTexture", &layers.clearcoat},
+                      {"clearcoatRoughnessTexture", &layers.clearcoatRoughness},
+                      {"clearcoatNormalTexture", &layers.clearcoatNormal}});
+        if (const Value* coat = in("KHR_materials_clearcoat")) {
             const Value* normal = member(*coat, "clearcoatNormalTexture");
             layers.clearcoatNormalScale = normal == nullptr ? 1.0f : numberIn(*normal, "scale", 1.0f);
         }
-        numbers("KHR_materials_sheen", {{"sheenRoughnessFactor", &layers.sheenRoughnessFactor}});
-        color("KHR_materials_sheen", "sheenColorFactor", layers.sheenColorFactor);
-        textures("KHR_materials_sheen",
-                 {{"sheenColorTexture", &layers.sheenColor}, {"sheenRoughnessTexture", &layers.sheenRoughness}});
-        numbers("KHR_materials_transmission", {{"transmissionFactor", &layers.transmissionFactor}});
-        textures("KHR_materials_transmission", {{"transmissionTexture", &layers.transmission}});
-        numbers("KHR_materials_ior", {{"ior", &layers.ior}});
-        numbers("KHR_materials_specular", {{"specularFactor", &layers.specularFactor}});
-        color("KHR_materials_specular", "specularColorFactor", layers.specularColorFactor);
-        textures("KHR_materials_specular",
-                 {{"specularTexture", &layers.specular}, {"specularColorTexture", &layers.specularColor}});
-        numbers("KHR_materials_iridescence", {{"iridescenceFactor", &layers.iridescenceFactor},
-                                              {"iridescenceIor", &layers.iridescenceIor},
-                                              {"iridescenceThicknessMinimum", &layers.iridescenceThicknessMinimum},
-                                              {"iridescenceThicknessMaximum", &layers.iridescenceThicknessMaximum}});
-        textures("KHR_materials_iridescence", {{"iridescenceTexture", &layers.iridescence},
-                                               {"iridescenceThicknessTexture", &layers.iridescenceThickness}});
-        numbers("KHR_materials_anisotropy", {{"anisotropyStrength", &layers.anisotropyStrength},
-                                             {"anisotropyRotation", &layers.anisotropyRotation}});
-        textures("KHR_materials_anisotropy", {{"anisotropyTexture", &layers.anisotropy}});
-        numbers("KHR_materials_diffuse_transmission",
-                {{"diffuseTransmissionFactor", &layers.diffuseTransmissionFactor}});
-        color("KHR_materials_diffuse_transmission", "diffuseTransmissionColorFactor",
-              layers.diffuseTransmissionColorFactor);
-        textures("KHR_materials_diffuse_transmission",
-                 {{"diffuseTransmissionTexture", &layers.diffuseTransmission},
-                  {"diffuseTransmissionColorTexture", &layers.diffuseTransmissionColor}});
-        numbers("KHR_materials_volume",
-                {{"thicknessFactor", &layers.thicknessFactor}, {"attenuationDistance", &layers.attenuationDistance}});
-        color("KHR_materials_volume", "attenuationColor", layers.attenuationColor);
-        textures("KHR_materials_volume", {{"thicknessTexture", &layers.thickness}});
+        readNumbers(in("KHR_materials_sheen"), {{"sheenRoughnessFactor", &layers.sheenRoughnessFactor}});
+        readColor(in("KHR_materials_sheen"), "sheenColorFactor", layers.sheenColorFactor);
+        readTextures(in("KHR_materials_sheen"), element,
+                     {{"sheenColorTexture", &layers.sheenColor}, {"sheenRoughnessTexture", &layers.sheenRoughness}});
+        readNumbers(in("KHR_materials_transmission"), {{"transmissionFactor", &layers.transmissionFactor}});
+        readTextures(in("KHR_materials_transmission"), element, {{"transmissionTexture", &layers.transmission}});
+        readNumbers(in("KHR_materials_ior"), {{"ior", &layers.ior}});
+        readNumbers(in("KHR_materials_specular"), {{"specularFactor", &layers.specularFactor}});
+        readColor(in("KHR_materials_specular"), "specularColorFactor", layers.specularColorFactor);
+        readTextures(in("KHR_materials_specular"), element,
+                     {{"specularTexture", &layers.specular}, {"specularColorTexture", &layers.specularColor}});
+        readNumbers(in("KHR_materials_iridescence"),
+                    {{"iridescenceFactor", &layers.iridescenceFactor},
+                     {"iridescenceIor", &layers.iridescenceIor},
+                     {"iridescenceThicknessMinimum", &layers.iridescenceThicknessMinimum},
+                     {"iridescenceThicknessMaximum", &layers.iridescenceThicknessMaximum}});
+        readTextures(in("KHR_materials_iridescence"), element,
+                     {{"iridescenceTexture", &layers.iridescence},
+                      {"iridescenceThicknessTexture", &layers.iridescenceThickness}});
+        readNumbers(in("KHR_materials_anisotropy"), {{"anisotropyStrength", &layers.anisotropyStrength},
+                                                     {"anisotropyRotation", &layers.anisotropyRotation}});
+        readTextures(in("KHR_materials_anisotropy"), element, {{"anisotropyTexture", &layers.anisotropy}});
+        readNumbers(in("KHR_materials_diffuse_transmission"),
+                    {{"diffuseTransmissionFactor", &layers.diffuseTransmissionFactor}});
+        readColor(in("KHR_materials_diffuse_transmission"), "diffuseTransmissionColorFactor",
+                  layers.diffuseTransmissionColorFactor);
+        readTextures(in("KHR_materials_diffuse_transmission"), element,
+                     {{"diffuseTransmissionTexture", &layers.diffuseTransmission},
+                      {"diffuseTransmissionColorTexture", &layers.diffuseTransmissionColor}});
+        readNumbers(in("KHR_materials_volume"), {{"thicknessFactor", &layers.thicknessFactor},
+                                                 {"attenuationDistance", &layers.attenuationDistance}});
+        readColor(in("KHR_materials_volume"), "attenuationColor", layers.attenuationColor);
+        readTextures(in("KHR_materials_volume"), element, {{"thicknessTexture", &layers.thickness}});
         return layers;
     }
 
