@@ -535,6 +535,14 @@ TEST_F(MaterialPictureTest, LeavesShowLightFromBehind) {
     EXPECT_LT(std::abs(bare.x - bare.y), 25);
     EXPECT_GT(leaf.y, bare.y + 25);
     EXPECT_GT(leaf.y, leaf.x + 40) << "in its own color";
+    Picture green = Picture::blank(1, 1);
+    green.rgba = {89, 255, 89, 255}; // sRGB of the color above
+    const glm::ivec3 mapped =
+        middleOf(draw(square(layered("[0.2,0.2,0.2,1]", "diffuse_transmission",
+                                     R"("diffuseTransmissionFactor":1,"diffuseTransmissionColorTexture":{"index":0})"),
+                             {green}),
+                      facing()));
+    EXPECT_LE(furthest(mapped, leaf), 3);
 }
 
 TEST_F(MaterialPictureTest, ThickGlassTakesAwayLight) {
