@@ -116,7 +116,8 @@ Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const 
 
 bool FigureMaterials::hasMaps(uint32_t material) const {
     const std::array<size_t, shared::kTextureCount>& slots = slots_[indexOf(material)];
-    return slots[shared::kNormal] != 0 || slots[shared::kOcclusion] != 0 || slots[shared::kEmissive] != 0;
+    return slots[shared::kNormal] != 0 || slots[shared::kOcclusion] != 0 || slots[shared::kEmissive] != 0 ||
+           layers_[indexOf(material)].anisotropyStrength > 0.0f;
 }
 
 bool FigureMaterials::hasNormalMaps() const {

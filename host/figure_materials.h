@@ -36,7 +36,7 @@ public:
     [[nodiscard]] const Image& texture(size_t index, uint32_t slot) const {
         return textures_[slots_[index][slot]].image;
     }
-    /// It has more textures than base color, metallic and roughness, and the trim.
+    /// It has more textures than base color, metallic and roughness, and the trim, or highlights that are stretched.
     [[nodiscard]] bool hasMaps(uint32_t material) const;
     /// Any of them has a normal map.
     [[nodiscard]] bool hasNormalMaps() const;
