@@ -19,9 +19,11 @@ uvec2 levelPair(float level) {
     return floatBitsToUint(vec2(a, inverse));
 }
 
-// The words that places are taken with, by elements: CPU devices store lane by lane, and four words then take as long as one. Through
-// the same binding: if the buffer were bound twice, synchronization validation would see groups read what others write.
-BUFFER(writeonly, LodTargets, kLodBinding, std430, uvec4, lodTargets)
+// Through the binding that places are taken with. If the buffer were bound twice, synchronization validation would see groups read
+// what others write.
+void storeElement(uint to, uvec4 words) {
+    for (uint k = 0u; k < 4u; ++k) lodWords.at[to + k] = words[k];
+}
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
@@ -88,11 +90,11 @@ void main() {
         for (uint k = 0u; k < 5u; ++k) pairs[1u + k] = ofEdges[k];
     }
     uint samples = formSamples(form, capacityOf(capacity));
-    uint to = (SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * (lodWord(bucket) + place)) / 4u;
+    uint to = SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * (lodWord(bucket) + place);
 #ifndef TASKS // an address knows no length; what the solver has found a place for fits
-    if (to + kLodRecordWords / 4u > uint(lodTargets.at.length())) return;
+    if (to + kLodRecordWords > uint(lodWords.at.length())) return;
 #endif
-    lodTargets.at[to] = uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
-                              lodWord(bucket + 1u) + place * samples, capacity);
-    for (uint k = 0u; k < 3u; ++k) lodTargets.at[to + k + 1u] = uvec4(pairs[2u * k], pairs[2u * k + 1u]);
+    storeElement(to, uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
+                           lodWord(bucket + 1u) + place * samples, capacity));
+    for (uint k = 0u; k < 3u; ++k) storeElement(to + 4u * (k + 1u), uvec4(pairs[2u * k], pairs[2u * k + 1u]));
 }
