@@ -30,11 +30,10 @@ void recordRound(const Frame& frame, gpu::Dispatches& dispatches, uint32_t round
         }
         recordPart(frame, dispatches, round, [&](Group& group) {
             const Playback& playback = *group.poses().playback();
-            group.windows().forEach([&](uint32_t w) {
-                if (playback.hasEarly(part)) {
-                    playback.record(dispatches, part, w, group.windows(), round);
-                }
-            });
+            if (playback.hasEarly(part)) {
+                group.windows().forEach(
+                    [&](uint32_t w) { playback.record(dispatches, part, w, group.windows(), round); });
+            }
         });
     }
     recordPart(frame, dispatches, round, [&](Group& group) { group.stages().recordEarly(dispatches, round); });

@@ -50,8 +50,8 @@ inline constexpr uint32_t kStepsInRound = 1;
 /// for what is soft.
 [[nodiscard]] uint32_t unshownPoses(const StateRoom& room);
 
-/// From one of so many poses of an instance that are not shown to the next: a power of two. All of them together are a
-/// multiple of every descriptor alignment.
+/// From one pose that is not shown to the next. An instance has `poses` of them, a power of two or none; together they
+/// are a multiple of every descriptor alignment.
 [[nodiscard]] uint32_t unshownStride(const skinning::PoseLayout& layout, uint32_t poses);
 
 /// Of a transition in a state; 0: instances have none.

@@ -9,7 +9,7 @@
 
 namespace supple::runtime {
 
-/// An instance has one of four steps of detail. From full to light, cloths go on from where they are by a spring
+/// An instance has one of four levels of detail. From full to light, cloths go on from where they are by a spring
 /// instead of their constraints. Below, what is soft fades out and sleeps, then springs do. Asking allocates nothing.
 class StepDetail {
 public:

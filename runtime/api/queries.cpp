@@ -2,6 +2,8 @@
 #include "runtime/api/entry.h"
 #include "supple/supple_queries.h"
 
+#include <utility>
+
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
 
@@ -55,10 +57,12 @@ std::optional<Error> faultOf(const SuppleQueryDesc& desc, uint32_t most) {
     if (desc.hostTriangles != nullptr && desc.triangles.buffer != VK_NULL_HANDLE) {
         return Error{ErrorCode::nullPointer, "triangles must come from hostTriangles or from a buffer, not both"};
     }
-    for (const SuppleBufferRange& range : {desc.rays, desc.triangles}) {
+    for (const auto& [name, range] : {std::pair("rays", desc.rays), std::pair("triangles", desc.triangles)}) {
         const bool fits = range.offset % 4 == 0 && range.size / sizeof(SuppleRay) >= desc.rayCount;
         if (range.buffer != VK_NULL_HANDLE && !fits) {
-            return Error{ErrorCode::range, "a range is too small for the rays, or its offset is no multiple of 4"};
+            return Error{ErrorCode::range, std::string(name) + ": the range is too small for " +
+                                               std::to_string(desc.rayCount) +
+                                               " rays, or its offset is no multiple of 4"};
         }
     }
     return std::nullopt;

@@ -2,7 +2,7 @@
 
 #include "runtime/cpu_group.h"
 #include "runtime/points/gltf_points.h"
-#include "runtime/points/point_pieces.h"
+#include "runtime/points/point_domains.h"
 #include "runtime/points/ray_tree.h"
 #include "runtime/points/seed_tree.h"
 #include "runtime/points/uv_tree.h"
@@ -26,14 +26,13 @@ constexpr double kLongestStep = 0.25;
 constexpr double kTie = 1e-6;
 /// A part of the surface is searched if it may be nearer than what was found by more than this part of the extent.
 constexpr double kMissed = 5e-4;
-constexpr size_t kMostMore = 4; ///< of these: beside a vertex of many faces all may be
-constexpr SuppleSurfacePoint kNoPoint{SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
+constexpr size_t kMostMore = 4; ///< such parts are searched: beside a vertex of many faces all may be so near
 
-/// Newton's method for the distance, held to a piece.
-class NearestInPiece {
+/// Newton's method for the distance, held to a domain.
+class NearestInDomain {
 public:
-    NearestInPiece(const CpuPose& pose, const Piece& piece, const glm::dvec3& to)
-        : pose_(pose), piece_(piece), to_(to) {}
+    NearestInDomain(const CpuPose& pose, const PointDomain& domain, const glm::dvec3& to)
+        : pose_(pose), domain_(domain), to_(to) {}
 
     struct Found {
         double a = 0.0, b = 0.0, distance = 0.0; ///< the distance is squared
@@ -49,7 +48,7 @@ public:
             glm::dvec2 step = stepAt(*jet, best);
             bool nearer = false;
             for (int halving = 0; halving < 6 && !nearer && step != glm::dvec2(0.0); ++halving, step *= 0.5) {
-                const glm::dvec2 at = piece_.held(glm::dvec2(best.a, best.b) + step);
+                const glm::dvec2 at = domain_.held(glm::dvec2(best.a, best.b) + step);
                 Found next{at.x, at.y, 0.0};
                 const Result<SuppleSurfaceJet> there = jetAt(next);
                 if (!there) {
@@ -71,7 +70,7 @@ public:
 
 private:
     [[nodiscard]] Result<SuppleSurfaceJet> jetAt(const Found& place) const {
-        const SuppleSurfacePoint point = piece_.at(place.a, place.b);
+        const SuppleSurfacePoint point = domain_.at(place.a, place.b);
         SuppleSurfaceJet jet;
         const Status evaluated = pose_.evaluate({&point, 1}, &jet, {});
         return evaluated ? Result<SuppleSurfaceJet>(jet) : evaluated.error();
@@ -94,9 +93,9 @@ private:
             const double bend = way.x * (aa * way.x + ab * way.y) + way.y * (ab * way.x + bb * way.y);
             return bend > 0.0 ? -(glm::dot(g, way) / bend) * way : glm::dvec2(0.0);
         };
-        const bool holdsA = (at.a <= 0.0 && g.x > 0.0) || (piece_.isQuad && at.a >= 1.0 && g.x < 0.0);
-        const bool holdsB = (at.b <= 0.0 && g.y > 0.0) || (piece_.isQuad && at.b >= 1.0 && g.y < 0.0);
-        const bool onSlant = !piece_.isQuad && at.a + at.b >= 1.0 && g.x + g.y < 0.0;
+        const bool holdsA = (at.a <= 0.0 && g.x > 0.0) || (domain_.isQuad && at.a >= 1.0 && g.x < 0.0);
+        const bool holdsB = (at.b <= 0.0 && g.y > 0.0) || (domain_.isQuad && at.b >= 1.0 && g.y < 0.0);
+        const bool onSlant = !domain_.isQuad && at.a + at.b >= 1.0 && g.x + g.y < 0.0;
         const double area = aa * bb - ab * ab;
         glm::dvec2 step(0.0);
         if (holdsA || holdsB) {
@@ -111,12 +110,12 @@ private:
     }
 
     const CpuPose& pose_;
-    const Piece& piece_;
+    const PointDomain& domain_;
     glm::dvec3 to_;
 };
 
 /// The disk that a cell's surface lies near to, by its jet.
-SeedTree::Seed seedOf(const Cell& cell, bool isQuad, uint32_t piece, const SuppleSurfaceJet& jet) {
+SeedTree::Seed seedOf(const Cell& cell, bool isQuad, uint32_t domain, const SuppleSurfaceJet& jet) {
     const glm::dvec2 at = cell.middle(isQuad);
     const glm::dvec3 du = vectorAt(jet.du), dv = vectorAt(jet.dv), across = glm::cross(du, dv);
     const double area = glm::length(across);
@@ -134,7 +133,7 @@ SeedTree::Seed seedOf(const Cell& cell, bool isQuad, uint32_t piece, const Suppl
     if (area <= 0.0) {
         bend += reach;
     }
-    return {vectorAt(jet.position), piece, at.x, at.y, normal, static_cast<float>(reach), static_cast<float>(bend)};
+    return {vectorAt(jet.position), domain, at.x, at.y, normal, static_cast<float>(reach), static_cast<float>(bend)};
 }
 
 /// Numbers from 0 to 1, the same for a seed everywhere (splitmix64).
@@ -157,7 +156,8 @@ private:
 /// The surfaces in one pose, with what searches of every kind begin from.
 class PointFinder {
 public:
-    explicit PointFinder(std::shared_ptr<const CpuGroup> group) : pieces_(piecesOf(*group)), pose_(std::move(group)) {}
+    explicit PointFinder(std::shared_ptr<const CpuGroup> group)
+        : domains_(pointDomains(*group)), pose_(std::move(group)) {}
 
     /// `cage`: of all vertices.
     [[nodiscard]] Status build(const float* cage) {
@@ -168,7 +168,7 @@ public:
         rays_.reset();
         return success();
     }
-    [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+    [[nodiscard]] const std::vector<PointDomain>& domains() const { return domains_; }
     [[nodiscard]] bool isOf(const std::shared_ptr<const CpuGroup>& group) const {
         return &pose_.group() == group.get();
     }
@@ -181,28 +181,28 @@ public:
     [[nodiscard]] Status evaluate(std::span<const SuppleSurfacePoint> points, SuppleSurfaceJet* jets) const;
 
 private:
-    /// All cells of all pieces, with the jets at their middles.
-    Status forEachCell(const std::function<void(uint32_t piece, const Cell&, const SuppleSurfaceJet&)>& visit) const;
+    /// All cells of all domains, with the jets at their middles.
+    Status forEachCell(const std::function<void(uint32_t domain, const Cell&, const SuppleSurfaceJet&)>& visit) const;
     Status plant();
     [[nodiscard]] Result<SuppleSurfacePoint> nearestTo(const glm::dvec3& to) const;
 
-    std::vector<Piece> pieces_;
+    std::vector<PointDomain> domains_;
     CpuPose pose_;
     std::optional<SeedTree> tree_; ///< made when a nearest point is asked for
     std::optional<RayTree> rays_;  ///< made when a ray is
     double extent_ = 0.0;
 };
 
-Status
-PointFinder::forEachCell(const std::function<void(uint32_t piece, const Cell&, const SuppleSurfaceJet&)>& visit) const {
+Status PointFinder::forEachCell(
+    const std::function<void(uint32_t domain, const Cell&, const SuppleSurfaceJet&)>& visit) const {
     const cage::Cage& cage = pose_.group().cage();
     std::vector<Cell> cells;
     std::pair<bool, uint32_t> kind(false, 0); // of the cells
     std::vector<SuppleSurfacePoint> points;
     std::vector<SuppleSurfaceJet> jets;
-    for (uint32_t p = 0; p < pieces_.size(); ++p) {
-        const Piece& piece = pieces_[p];
-        const std::pair<bool, uint32_t> own(piece.isQuad, cellsAlong(cage.sides(piece.face)));
+    for (uint32_t p = 0; p < domains_.size(); ++p) {
+        const PointDomain& domain = domains_[p];
+        const std::pair<bool, uint32_t> own(domain.isQuad, cellsAlong(cage.sides(domain.face)));
         if (own != kind) {
             kind = own;
             cells = cellsOf(kind.first, kind.second);
@@ -210,8 +210,8 @@ PointFinder::forEachCell(const std::function<void(uint32_t piece, const Cell&, c
         }
         points.clear();
         for (const Cell& cell : cells) {
-            const glm::dvec2 at = cell.middle(piece.isQuad);
-            points.push_back(piece.at(at.x, at.y));
+            const glm::dvec2 at = cell.middle(domain.isQuad);
+            points.push_back(domain.at(at.x, at.y));
         }
         if (Status evaluated = pose_.evaluate(points, jets.data(), {}); !evaluated) {
             return evaluated;
@@ -230,7 +230,7 @@ Status PointFinder::plant() {
         const glm::dvec3 position = vectorAt(jet.position);
         low = glm::min(low, position);
         high = glm::max(high, position);
-        seeds.push_back(seedOf(cell, pieces_[p].isQuad, p, jet));
+        seeds.push_back(seedOf(cell, domains_[p].isQuad, p, jet));
     });
     if (made) {
         extent_ = glm::distance(low, high);
@@ -241,20 +241,20 @@ Status PointFinder::plant() {
 
 Result<SuppleSurfacePoint> PointFinder::nearestTo(const glm::dvec3& to) const {
     struct Candidate {
-        const Piece* piece = nullptr;
-        NearestInPiece::Found found;
+        const PointDomain* domain = nullptr;
+        NearestInDomain::Found found;
     };
     std::vector<Candidate> candidates;
     Status status = success();
     double least = std::numeric_limits<double>::infinity();
     const auto descend = [&](const SeedTree::Seed& seed) {
-        const Piece& piece = pieces_[seed.piece];
-        const auto found = NearestInPiece(pose_, piece, to).from(seed.a, seed.b);
+        const PointDomain& domain = domains_[seed.domain];
+        const auto found = NearestInDomain(pose_, domain, to).from(seed.a, seed.b);
         if (!found) {
             status = found.error();
             return;
         }
-        candidates.push_back({&piece, *found});
+        candidates.push_back({&domain, *found});
         least = std::min(least, found->distance);
     };
     const std::vector<std::pair<double, size_t>> nearest = tree_->nearest(to);
@@ -280,12 +280,12 @@ Result<SuppleSurfacePoint> PointFinder::nearestTo(const glm::dvec3& to) const {
         if (std::sqrt(own.found.distance) > most) {
             continue;
         }
-        const auto rank = [](const Candidate& c) { return std::tuple(c.piece->face, c.found.distance); };
+        const auto rank = [](const Candidate& c) { return std::tuple(c.domain->face, c.found.distance); };
         if (best == nullptr || rank(own) < rank(*best)) {
             best = &own;
         }
     }
-    return best->piece->at(best->found.a, best->found.b);
+    return best->domain->at(best->found.a, best->found.b);
 }
 
 Status PointFinder::findNearest(const float* positions, std::span<SuppleSurfacePoint> out) {
@@ -306,14 +306,14 @@ Status PointFinder::findNearest(const float* positions, std::span<SuppleSurfaceP
 
 Status PointFinder::scatter(uint32_t seed, std::span<SuppleSurfacePoint> out) const {
     struct Area {
-        uint32_t piece = 0;
+        uint32_t domain = 0;
         Cell cell;
         double end = 0.0; ///< of the running sum
     };
     std::vector<Area> areas;
     double sum = 0.0;
     Status made = forEachCell([&](uint32_t p, const Cell& cell, const SuppleSurfaceJet& jet) {
-        sum += glm::length(glm::cross(vectorAt(jet.du), vectorAt(jet.dv))) * cell.size(pieces_[p].isQuad);
+        sum += glm::length(glm::cross(vectorAt(jet.du), vectorAt(jet.dv))) * cell.size(domains_[p].isQuad);
         areas.push_back({p, cell, sum});
     });
     if (!made) {
@@ -327,19 +327,19 @@ Status PointFinder::scatter(uint32_t seed, std::span<SuppleSurfacePoint> out) co
             std::upper_bound(areas.begin(), areas.end(), target, [](double t, const Area& own) { return t < own.end; }),
             areas.end() - 1);
         double x = number(), y = number();
-        if (!pieces_[area->piece].isQuad && x + y > 1.0) {
+        if (!domains_[area->domain].isQuad && x + y > 1.0) {
             x = 1.0 - x;
             y = 1.0 - y;
         }
         const glm::dvec2 at = area->cell.origin + x * area->cell.x + y * area->cell.y;
-        out[k] = pieces_[area->piece].at(at.x, at.y);
+        out[k] = domains_[area->domain].at(at.x, at.y);
     }
     return success();
 }
 
 Status PointFinder::cast(const float* rays, std::span<SuppleSurfacePoint> out) {
     if (!rays_) {
-        Result<RayTree> planted = RayTree::plant(pose_, pieces_);
+        Result<RayTree> planted = RayTree::plant(pose_, domains_);
         if (!planted) {
             return planted.error();
         }
@@ -350,7 +350,7 @@ Status PointFinder::cast(const float* rays, std::span<SuppleSurfacePoint> out) {
         if (!hit) {
             return hit.error();
         }
-        out[k] = *hit ? pieces_[(*hit)->piece].at((*hit)->a, (*hit)->b) : kNoPoint;
+        out[k] = *hit ? domains_[(*hit)->domain].at((*hit)->a, (*hit)->b) : kNoPoint;
     }
     return success();
 }
@@ -379,15 +379,15 @@ Status findUvs(const CpuGroup& group, const SupplePointQuery& query, std::span<S
     if (uvs.empty()) {
         return Error{ErrorCode::range, "the character has no UV set " + std::to_string(query.uvSet)};
     }
-    const std::vector<Piece> pieces = piecesOf(group);
-    const UvTree tree(cage, uvs, pieces);
+    const std::vector<PointDomain> domains = pointDomains(group);
+    const UvTree tree(cage, uvs, domains);
     const size_t each = std::max(1u, query.pointsEach);
     std::fill(out.begin(), out.end(), kNoPoint);
     for (size_t k = 0; k < query.count; ++k) {
         const auto found = tree.find({query.values[2 * k], query.values[2 * k + 1]}, each);
         for (size_t i = 0; i < found.size(); ++i) {
             const glm::dvec2 at = glm::clamp(found[i].at, 0.0, 1.0);
-            out[k * each + i] = pieces[found[i].piece].at(at.x, at.y);
+            out[k * each + i] = domains[found[i].domain].at(at.x, at.y);
         }
     }
     return success();
@@ -425,7 +425,7 @@ Status findPoints(const std::shared_ptr<const CpuGroup>& group, std::shared_ptr<
     if (query.cage == nullptr) {
         kept = finder;
     }
-    if (finder->pieces().empty()) {
+    if (finder->domains().empty()) {
         return Error{ErrorCode::argument, "the surfaces have no faces"};
     }
     Status found = success(); // the points of other kinds stand in out already

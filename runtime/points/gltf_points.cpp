@@ -2,6 +2,7 @@
 
 #include "cage/character.h"
 #include "runtime/cpu_group.h"
+#include "runtime/points/point_domains.h"
 
 #include <algorithm>
 #include <array>
@@ -91,12 +92,12 @@ Result<SuppleSurfacePoint> findOne(const cage::Cage& cage, const std::vector<Tri
     }
     const uint32_t* const corners = &cage.sourceTriangles[3 * (size_t{run->first} + point.triangle)];
     if (corners[0] == cage::kNone) {
-        return SuppleSurfacePoint{SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
+        return kNoPoint;
     }
     const auto next = std::upper_bound(cage.faceStarts.begin(), cage.faceStarts.end(), corners[0]);
     const auto face = static_cast<uint32_t>(next - cage.faceStarts.begin() - 1);
     if (std::binary_search(cage.holes.begin(), cage.holes.end(), face)) {
-        return SuppleSurfacePoint{SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
+        return kNoPoint;
     }
     const uint32_t start = cage.faceStarts[face];
     return placeIn(face, cage.sides(face), {corners[0] - start, corners[1] - start, corners[2] - start}, weights);

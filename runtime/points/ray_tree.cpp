@@ -13,7 +13,7 @@ constexpr double kLongestRayStep = 0.3;
 /// Steps that floats do not tell apart.
 constexpr double kShortestRayStep = 1e-8;
 /// A triangle is taken for a beginning if the ray passes it by so many of its widths: with less, of two points of a
-/// bent piece the farther may be found.
+/// bent domain the farther may be found.
 constexpr double kTriangleSlack = 1.0;
 /// A hit may be beside the ray by this part of the extent.
 constexpr double kRayTolerance = 2e-6;
@@ -34,8 +34,8 @@ public:
     }
 
     [[nodiscard]] Status lookAt(uint32_t number) {
-        const Piece& piece = tree_.pieces_[number];
-        const SampleGrid grid{piece.isQuad, tree_.alongOf(piece)};
+        const PointDomain& domain = tree_.domains_[number];
+        const SampleGrid grid{domain.isQuad, tree_.alongOf(domain)};
         const glm::vec3* const samples = &tree_.samples_[tree_.firsts_[number]];
         Status status = success();
         grid.forEachTriangle([&](const glm::uvec2& p, const glm::uvec2& q, const glm::uvec2& r) {
@@ -75,11 +75,11 @@ private:
         return {glm::dot(x_, e), glm::dot(y_, e)};
     }
     [[nodiscard]] Status begin(uint32_t number, const glm::dvec2& seed) {
-        const Piece& piece = tree_.pieces_[number];
-        glm::dvec2 at = piece.held(seed);
+        const PointDomain& domain = tree_.domains_[number];
+        glm::dvec2 at = domain.held(seed);
         Nearest nearest;
         for (int round = 0; round <= kRayRounds; ++round) {
-            const SuppleSurfacePoint point = piece.at(at.x, at.y);
+            const SuppleSurfacePoint point = domain.at(at.x, at.y);
             SuppleSurfaceJet jet;
             if (Status evaluated = tree_.pose_->evaluate({&point, 1}, &jet, {}); !evaluated) {
                 return evaluated;
@@ -97,7 +97,7 @@ private:
                 break; // seen edge on
             }
             step *= length > kLongestRayStep ? kLongestRayStep / length : 1.0;
-            const glm::dvec2 next = piece.held(at + step);
+            const glm::dvec2 next = domain.held(at + step);
             if (glm::all(glm::lessThan(glm::abs(next - at), glm::dvec2(kShortestRayStep)))) {
                 break;
             }
@@ -122,15 +122,15 @@ private:
     std::optional<Hit> best_;
 };
 
-Result<RayTree> RayTree::plant(const CpuPose& pose, std::span<const Piece> pieces) {
-    RayTree tree(pose, pieces);
+Result<RayTree> RayTree::plant(const CpuPose& pose, std::span<const PointDomain> domains) {
+    RayTree tree(pose, domains);
     if (Status sampled = tree.sample(); !sampled) {
         return sampled.error();
     }
-    tree.order_.resize(pieces.size());
+    tree.order_.resize(domains.size());
     std::iota(tree.order_.begin(), tree.order_.end(), 0u);
-    if (!pieces.empty()) {
-        (void)tree.split(0, static_cast<uint32_t>(pieces.size()));
+    if (!domains.empty()) {
+        (void)tree.split(0, static_cast<uint32_t>(domains.size()));
         const Box& all = tree.nodes_[0].box;
         const double farthest = glm::length(glm::max(glm::abs(all.low), glm::abs(all.high)));
         tree.tolerance_ =
@@ -142,13 +142,13 @@ Result<RayTree> RayTree::plant(const CpuPose& pose, std::span<const Piece> piece
 Status RayTree::sample() {
     std::vector<SuppleSurfacePoint> points;
     std::vector<SuppleSurfaceJet> jets;
-    for (const Piece& piece : pieces_) {
-        const SampleGrid grid{piece.isQuad, alongOf(piece)};
+    for (const PointDomain& domain : domains_) {
+        const SampleGrid grid{domain.isQuad, alongOf(domain)};
         points.clear();
         for (uint32_t j = 0; j <= grid.along; ++j) {
             for (uint32_t i = 0; i < grid.rowLength(j); ++i) {
                 const glm::dvec2 at = grid.at(i, j);
-                points.push_back(piece.at(at.x, at.y));
+                points.push_back(domain.at(at.x, at.y));
             }
         }
         jets.resize(points.size());
@@ -160,7 +160,7 @@ Status RayTree::sample() {
         for (const SuppleSurfaceJet& jet : jets) {
             samples_.emplace_back(jet.position[0], jet.position[1], jet.position[2]);
         }
-        boxes_.push_back(boxOf(piece.isQuad, grid.along, std::span(samples_).subspan(first)));
+        boxes_.push_back(boxOf(domain.isQuad, grid.along, std::span(samples_).subspan(first)));
     }
     return success();
 }
@@ -259,11 +259,11 @@ std::vector<RayTree::Candidate> RayTree::candidates(const Ray& ray) const {
 
 Result<std::optional<RayTree::Hit>> RayTree::find(const Ray& ray) const {
     Search search(*this, ray);
-    for (const auto& [from, piece] : candidates(ray)) {
+    for (const auto& [from, domain] : candidates(ray)) {
         if (search.best() && search.best()->t < from) {
             break;
         }
-        if (Status looked = search.lookAt(piece); !looked) {
+        if (Status looked = search.lookAt(domain); !looked) {
             return looked.error();
         }
     }

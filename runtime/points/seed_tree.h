@@ -18,7 +18,7 @@ public:
     /// middle, in its tangent plane.
     struct Seed {
         glm::dvec3 position{0.0};
-        uint32_t piece = 0;
+        uint32_t domain = 0;
         double a = 0.0, b = 0.0;
         glm::vec3 normal{0.0f}; ///< of unit length, or zero where there is none
         float reach = 0.0f, bend = 0.0f;

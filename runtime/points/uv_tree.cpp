@@ -6,28 +6,28 @@
 
 namespace supple::runtime {
 
-UvTree::UvTree(const cage::Cage& cage, std::span<const glm::vec2> uvs, std::span<const Piece> pieces)
-    : order_(pieces.size()) {
-    pieces_.reserve(pieces.size());
-    faces_.reserve(pieces.size());
+UvTree::UvTree(const cage::Cage& cage, std::span<const glm::vec2> uvs, std::span<const PointDomain> domains)
+    : order_(domains.size()) {
+    domains_.reserve(domains.size());
+    faces_.reserve(domains.size());
     std::vector<UvBox> boxes;
-    boxes.reserve(pieces.size());
+    boxes.reserve(domains.size());
     glm::dvec2 middle(0.0);
-    for (const Piece& piece : pieces) {
-        const uint32_t sides = cage.sides(piece.face);
-        if (sides > 4 && piece.side == 0) { // the other sides follow
+    for (const PointDomain& domain : domains) {
+        const uint32_t sides = cage.sides(domain.face);
+        if (sides > 4 && domain.side == 0) { // the other sides follow
             middle = glm::dvec2(0.0);
             for (uint32_t k = 0; k < sides; ++k) {
-                middle += glm::dvec2(uvs[cage.faceStarts[piece.face] + k]) / static_cast<double>(sides);
+                middle += glm::dvec2(uvs[cage.faceStarts[domain.face] + k]) / static_cast<double>(sides);
             }
         }
-        pieces_.emplace_back(cage, uvs, piece, middle);
-        faces_.push_back(piece.face);
-        boxes.push_back(pieces_.back().box());
+        domains_.emplace_back(cage, uvs, domain, middle);
+        faces_.push_back(domain.face);
+        boxes.push_back(domains_.back().box());
     }
     std::iota(order_.begin(), order_.end(), 0u);
-    if (!pieces.empty()) {
-        (void)split(0, static_cast<uint32_t>(pieces.size()), boxes);
+    if (!domains.empty()) {
+        (void)split(0, static_cast<uint32_t>(domains.size()), boxes);
     }
 }
 
@@ -64,7 +64,7 @@ std::vector<UvTree::Found> UvTree::find(const glm::dvec2& uv, size_t most) const
 
 void UvTree::search(uint32_t number, const glm::dvec2& uv, size_t most, std::vector<Found>& found) const {
     const Node& node = nodes_[number];
-    if (!node.box.covers(uv) || (found.size() == most && found.back().piece < node.first)) {
+    if (!node.box.covers(uv) || (found.size() == most && found.back().domain < node.first)) {
         return;
     }
     if (node.second != 0) {
@@ -73,21 +73,21 @@ void UvTree::search(uint32_t number, const glm::dvec2& uv, size_t most, std::vec
         return;
     }
     for (uint32_t k = node.begin; k < node.end; ++k) {
-        const uint32_t piece = order_[k];
-        if (found.size() == most && found.back().piece < piece) {
+        const uint32_t domain = order_[k];
+        if (found.size() == most && found.back().domain < domain) {
             continue;
         }
-        if (const std::optional<glm::dvec2> at = pieces_[piece].find(uv)) {
-            take({piece, *at}, most, found);
+        if (const std::optional<glm::dvec2> at = domains_[domain].find(uv)) {
+            take({domain, *at}, most, found);
         }
     }
 }
 
 void UvTree::take(const Found& own, size_t most, std::vector<Found>& found) const {
-    const auto isOfItsFace = [&](const Found& other) { return faces_[other.piece] == faces_[own.piece]; };
+    const auto isOfItsFace = [&](const Found& other) { return faces_[other.domain] == faces_[own.domain]; };
     const auto next = std::lower_bound(found.begin(), found.end(), own,
-                                       [](const Found& a, const Found& b) { return a.piece < b.piece; });
-    // A face's pieces follow each other, so one of the same face stands beside.
+                                       [](const Found& a, const Found& b) { return a.domain < b.domain; });
+    // A face's domains follow each other, so one of the same face stands beside.
     if (next != found.begin() && isOfItsFace(*(next - 1))) {
         return;
     }

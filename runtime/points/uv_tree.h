@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cage/character.h"
-#include "runtime/points/point_pieces.h"
+#include "runtime/points/point_domains.h"
 
 #include <array>
 #include <cstdint>
@@ -25,12 +25,13 @@ struct UvBox {
     }
 };
 
-/// The texture coordinates of a piece's corners.
-class PieceUvs {
+/// The texture coordinates of a domain's corners.
+class DomainUvs {
 public:
     /// `middle`: of the face, if it has more than four sides.
-    PieceUvs(const cage::Cage& cage, std::span<const glm::vec2> uvs, const Piece& piece, const glm::dvec2& middle) {
-        const uint32_t first = cage.faceStarts[piece.face], sides = cage.sides(piece.face);
+    DomainUvs(const cage::Cage& cage, std::span<const glm::vec2> uvs, const PointDomain& domain,
+              const glm::dvec2& middle) {
+        const uint32_t first = cage.faceStarts[domain.face], sides = cage.sides(domain.face);
         const auto corner = [&](uint32_t k) { return glm::dvec2(uvs[first + k % sides]); };
         if (sides <= 4) {
             count_ = sides;
@@ -39,7 +40,7 @@ public:
             }
             return;
         }
-        corners_ = {corner(piece.side), corner(piece.side + 1), middle, {}};
+        corners_ = {corner(domain.side), corner(domain.side + 1), middle, {}};
     }
 
     [[nodiscard]] UvBox box() const {
@@ -49,7 +50,7 @@ public:
         }
         return box;
     }
-    /// The numbers of the point that has the coordinates, if the piece covers them.
+    /// The numbers of the point that has the coordinates, if the domain covers them.
     [[nodiscard]] std::optional<glm::dvec2> find(const glm::dvec2& uv) const {
         return count_ == 4 ? inQuad(uv - corners_[0]) : inTriangle(uv - corners_[0]);
     }
@@ -86,23 +87,23 @@ private:
     uint32_t count_ = 3;
 };
 
-/// Finds the pieces that cover coordinates, by a tree of boxes that halves the pieces along the longest side.
+/// Finds the domains that cover coordinates, by a tree of boxes that halves the domains along the longest side.
 class UvTree {
 public:
     /// `uvs`: by corner of the cage.
-    UvTree(const cage::Cage& cage, std::span<const glm::vec2> uvs, std::span<const Piece> pieces);
+    UvTree(const cage::Cage& cage, std::span<const glm::vec2> uvs, std::span<const PointDomain> domains);
 
     struct Found {
-        uint32_t piece = 0;
+        uint32_t domain = 0;
         glm::dvec2 at{0.0};
     };
-    /// The first `most` faces that cover the coordinates, by one piece of each.
+    /// The first `most` faces that cover the coordinates, by one domain of each.
     [[nodiscard]] std::vector<Found> find(const glm::dvec2& uv, size_t most) const;
 
 private:
     struct Node {
         UvBox box;
-        uint32_t first = 0;          ///< of its pieces, the lowest number
+        uint32_t first = 0;          ///< of its domains, the lowest number
         uint32_t begin = 0, end = 0; ///< in order_
         uint32_t second = 0;         ///< the node of its second half; the first half's follows it. 0: a leaf
     };
@@ -110,11 +111,11 @@ private:
 
     uint32_t split(uint32_t begin, uint32_t end, std::span<const UvBox> boxes);
     void search(uint32_t node, const glm::dvec2& uv, size_t most, std::vector<Found>& found) const;
-    /// Puts a piece into what is found, in rising order.
+    /// Puts a domain into what is found, in rising order.
     void take(const Found& own, size_t most, std::vector<Found>& found) const;
 
-    std::vector<PieceUvs> pieces_;
-    std::vector<uint32_t> faces_; ///< by piece
+    std::vector<DomainUvs> domains_;
+    std::vector<uint32_t> faces_; ///< by domain
     std::vector<uint32_t> order_;
     std::vector<Node> nodes_;
 };

@@ -10,11 +10,12 @@ namespace supple::runtime {
 
 namespace {
 
-constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
-constexpr VkAccessFlags2 kAll =
-    kWrites | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT;
+// What queries write, and all that they do.
+constexpr gpu::SyncScope kQueryWrites{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr gpu::SyncScope kQueryAll{kQueryWrites.stages, kQueryWrites.access | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
+                                                            VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
+                                                            VK_ACCESS_2_TRANSFER_READ_BIT};
 
 QuerySource sourceOf(const std::shared_ptr<Group>& group) {
     const PointSource points = group->pointSource();
@@ -180,8 +181,7 @@ Status Context::recordQueries(VkCommandBuffer commandBuffer, QueryPool& pool, co
     }
     device_->beginLabel(commandBuffer, "supple queries");
     gpu::memoryBarrier(*device_, commandBuffer,
-                       {desc.before.stages | kCompute | kTransfer, desc.before.access | kWrites},
-                       {kCompute | kTransfer, kAll});
+                       {desc.before.stages | kQueryWrites.stages, desc.before.access | kQueryWrites.access}, kQueryAll);
     {
         const std::scoped_lock lock(uploading_);
         pool.recordStatics(commandBuffer, frame_);
@@ -192,8 +192,7 @@ Status Context::recordQueries(VkCommandBuffer commandBuffer, QueryPool& pool, co
                  desc.rayCount,
                  (desc.flags & SUPPLE_QUERY_READ_BACK) != 0});
     if (desc.after.stages != 0) {
-        gpu::memoryBarrier(*device_, commandBuffer, {kCompute | kTransfer, kWrites},
-                           {desc.after.stages, desc.after.access});
+        gpu::memoryBarrier(*device_, commandBuffer, kQueryWrites, {desc.after.stages, desc.after.access});
     }
     device_->endLabel(commandBuffer);
     return success();

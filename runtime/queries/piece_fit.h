@@ -19,8 +19,8 @@ struct VertexShares {
 };
 struct PieceFit {
     std::vector<VertexShares> vertices;
-    double error =
-        0.0; ///< the most that weights differ by in sum, at places between those that the polynomial goes through
+    /// The most that weights differ by in sum, at places between those that the polynomial goes through.
+    double error = 0.0;
 };
 
 /// Finds the polynomial that goes through 16 points of a square, or 15 of a triangle.

@@ -82,7 +82,7 @@ public:
 private:
     [[nodiscard]] Status createBuffers();
     [[nodiscard]] Status createSets(const QueryBuffers& buffers);
-    /// Calls record(set, push) for each window that has instances.
+    /// Calls record(set, push) for each window, also for those without instances.
     template <class F>
     void forWindows(const Batch& batch, F&& record) const;
 

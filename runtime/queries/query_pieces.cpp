@@ -1,12 +1,12 @@
 #include "runtime/queries/query_pieces.h"
 
-#include "runtime/points/point_pieces.h"
+#include "runtime/points/point_domains.h"
 #include "runtime/queries/piece_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -205,9 +205,10 @@ private:
     Cut cut(uint32_t face, uint32_t sides) {
         const std::vector<std::vector<FacePart>> ways = waysToCut(face, sides);
         Cut best = tried(ways[0]);
-        size_t& last = lastWay_[std::min(sides, 5u)];
+        size_t& last = lastWay_[std::min(sides, kMostSides)];
+        const size_t before = last;
         for (size_t k = 0; k < ways.size() && best.missed > 0.0; ++k) {
-            const size_t way = k == 0 ? last : k == last ? 0 : k;
+            const size_t way = k == 0 ? before : k == before ? 0 : k;
             if (way == 0) {
                 continue;
             }
@@ -222,13 +223,14 @@ private:
         }
         return best;
     }
+    static constexpr uint32_t kMostSides = 5; ///< faces of more are cut as faces of so many
     /// Half of the parts lie at extraordinary vertices.
     static constexpr double kMissedByCorners = 0.5;
 
     PieceFitter fitter_;
     PieceWriter writer_;
     std::vector<FacePieces> ofFaces_;
-    std::unordered_map<uint32_t, size_t> lastWay_; ///< by number of sides
+    std::array<size_t, kMostSides + 1> lastWay_{}; ///< by number of sides
 };
 
 } // namespace
@@ -236,12 +238,12 @@ private:
 Result<PieceTable> pieceTable(const CpuGroup& group, uint64_t mostElements) {
     PieceBuilder builder(group, mostElements);
     std::optional<uint32_t> last;
-    for (const Piece& piece : piecesOf(group)) {
-        if (last == piece.face) {
+    for (const PointDomain& domain : pointDomains(group)) {
+        if (last == domain.face) {
             continue; // another side of the same
         }
-        last = piece.face;
-        if (Status added = builder.add(piece.face, group.cage().sides(piece.face)); !added) {
+        last = domain.face;
+        if (Status added = builder.add(domain.face, group.cage().sides(domain.face)); !added) {
             return added.error();
         }
     }

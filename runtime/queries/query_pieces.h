@@ -2,12 +2,13 @@
 #pragma once
 
 #include "base/result.h"
-#include "runtime/cpu_group.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace supple::runtime {
+
+class CpuGroup;
 
 /// The pieces of a face of the cage.
 struct FacePieces {

@@ -220,8 +220,11 @@ void QueryPool::beginFrame(uint64_t completedFrame) {
 }
 
 void QueryPool::cancelFrame(uint64_t frame) {
-    for (Copy& copy : copies_) {
-        copy.frame = copy.frame == frame ? 0 : copy.frame;
+    for (size_t k = 0; k < copies_.size(); ++k) {
+        if (copies_[k].frame == frame) { // the last that was taken: the others stay
+            copies_[k].frame = 0;
+            next_ = k;
+        }
     }
     queriedFrame_ = queriedFrame_ == frame ? 0 : queriedFrame_;
     forStatics([&](gpu::StaticBuffers& table) { table.cancelFrame(frame); });

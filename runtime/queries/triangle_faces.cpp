@@ -22,8 +22,8 @@ SuppleGridOutput gridOf(const Tessellation& surface) {
     return grid;
 }
 
-/// Adds the runs of a surface's ranges, where `ranges` says that they begin. A
-/// mesh has all patches of one material and one part in a range.
+/// Adds the runs of a surface's ranges, where `ranges` says that they begin. A mesh has all patches of one material and
+/// one part in a range.
 void addRuns(const Tessellation& surface, uint32_t firstFace, size_t ranges, std::vector<uint32_t>& words) {
     const SuppleGridOutput grid = gridOf(surface);
     const std::vector<surface::DrawRange>& patches = surface.tables().drawRanges;
@@ -44,10 +44,6 @@ void addRuns(const Tessellation& surface, uint32_t firstFace, size_t ranges, std
 }
 
 } // namespace
-
-bool haveTriangles(const Surfaces& surfaces) {
-    return surfaces.any(hasTriangles);
-}
 
 uint32_t rateOf(const Surfaces& surfaces) {
     uint32_t rate = 1;

@@ -1,5 +1,4 @@
-// Which faces of the cage the triangles of a group are of, as queries look it
-// up (shaders/shared/queries.h).
+// Which faces of the cage the triangles of a group are of, as queries look it up (shaders/shared/queries.h).
 #pragma once
 
 #include "runtime/queries/query_pieces.h"
@@ -13,8 +12,6 @@ namespace supple::runtime {
 
 /// Surfaces that draw no grids or meshes have no triangles.
 [[nodiscard]] std::vector<uint32_t> triangleFaces(const Surfaces& surfaces, std::span<const FacePieces> pieces);
-/// Whether one of them has some.
-[[nodiscard]] bool haveTriangles(const Surfaces& surfaces);
 /// The rate of grids and meshes.
 [[nodiscard]] uint32_t rateOf(const Surfaces& surfaces);
 

@@ -1,7 +1,7 @@
 // Triangles far denser than what is drawn, to tell what rays meet, and rays at them.
 #pragma once
 
-#include "runtime/points/point_pieces.h"
+#include "runtime/points/point_domains.h"
 #include "tests/support/found_points.h"
 
 #include <algorithm>
@@ -19,19 +19,19 @@ struct TestRay {
     glm::vec3 origin{0.0f}, direction{0.0f};
 };
 
-/// The surface in triangles, so many along a side of each piece.
+/// The surface in triangles, so many along a side of each domain.
 class DenseTriangles {
 public:
     DenseTriangles(const Surfaces& surfaces, const std::vector<glm::vec3>& cage, uint32_t along = 32)
-        : along_(along), pieces_(runtime::piecesOf(*surfaces)) {
+        : along_(along), domains_(runtime::pointDomains(*surfaces)) {
         runtime::CpuPose pose(surfaces);
         EXPECT_TRUE(pose.build(reinterpret_cast<const std::byte*>(cage.data()), sizeof(cage[0]), {}));
         glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-        for (const runtime::Piece& piece : pieces_) {
+        for (const runtime::PointDomain& domain : domains_) {
             std::vector<SuppleSurfacePoint> points;
             for (uint32_t j = 0; j <= along_; ++j) {
-                for (uint32_t i = 0; i <= along_ - (piece.isQuad ? 0 : j); ++i) {
-                    points.push_back(piece.at(static_cast<double>(i) / along_, static_cast<double>(j) / along_));
+                for (uint32_t i = 0; i <= along_ - (domain.isQuad ? 0 : j); ++i) {
+                    points.push_back(domain.at(static_cast<double>(i) / along_, static_cast<double>(j) / along_));
                 }
             }
             std::vector<SuppleSurfaceJet> jets(points.size());
@@ -53,13 +53,13 @@ public:
 
     [[nodiscard]] double first(const TestRay& ray) const {
         double best = std::numeric_limits<double>::infinity();
-        for (size_t p = 0; p < pieces_.size(); ++p) {
+        for (size_t p = 0; p < domains_.size(); ++p) {
             const Samples& own = samples_[p];
             if (!meets(ray, own)) {
                 continue;
             }
             for (uint32_t j = 0; j < along_; ++j) {
-                const bool isQuad = pieces_[p].isQuad;
+                const bool isQuad = domains_[p].isQuad;
                 const uint32_t length = along_ + 1 - (isQuad ? 0 : j);
                 const glm::dvec3* const row = &own.positions[isQuad ? j * length : j * (along_ + 1) - j * (j - 1) / 2];
                 for (uint32_t i = 0; i + 1 < length; ++i) {
@@ -98,7 +98,7 @@ private:
         return std::max({enters.x, enters.y, enters.z, 0.0}) <= std::min({leaves.x, leaves.y, leaves.z});
     }
     uint32_t along_;
-    std::vector<runtime::Piece> pieces_;
+    std::vector<runtime::PointDomain> domains_;
     std::vector<Samples> samples_;
 };
 

@@ -1089,9 +1089,8 @@ typedef enum SuppleGroupFlags {
     SUPPLE_GROUP_RAY_TRACING = 32768,
     /** PREP and PM without a view: surface vertices are neither stored nor written. The host's shaders evaluate patches
      * while they draw (supple_direct.h), with the same bits. That saves memory, and costs time (docs/direct.md).
-     * Surfaces of other schemes in the same group have their vertices as ever; suppleCreateGroup fails if all are of
-     * others. vertexFormat means nothing to the rest. It goes with neither MOTION, TANGENTS, INDEXED_MESH nor
-     * RAY_TRACING. */
+     * Surfaces of other schemes in the same group have their vertices as ever, in vertexFormat. If all are such,
+     * suppleCreateGroup fails. The flag goes with neither MOTION, TANGENTS, INDEXED_MESH nor RAY_TRACING. */
     SUPPLE_GROUP_DIRECT = 65536
 } SuppleGroupFlags;
 

@@ -36,9 +36,8 @@ typedef struct SuppleSurfacePoint {
     float b; /**< see a */
 } SuppleSurfacePoint;
 
-/** A point of a triangle of a glTF file, as scanners, painters and physics name it. Of a quad's two triangles both give
- * points of the quad: those that the triangle has in the quad's own square, so its diagonal is the same curve from
- * both. */
+/** A point of a triangle of a glTF file, as scanners, painters and physics name it. Both triangles of a quad give
+ * points of the quad: each fills its half of the quad's own square. So the diagonal is the same curve from both. */
 typedef struct SuppleGltfPoint {
     uint32_t mesh;      /**< as the file numbers them */
     uint32_t primitive; /**< within the mesh */

@@ -91,17 +91,17 @@ typedef enum SuppleQueryFlags {
 typedef struct SuppleQueryDesc {
     uint32_t structSize;
     uint32_t flags;            /**< SuppleQueryFlags */
-    const SuppleGroup* groups; /**< optional: groupCount of the pool's groups. Null: all that it still has */
+    const SuppleGroup* groups; /**< optional: groupCount of the pool's. Null: those that this frame has recorded */
     uint32_t groupCount;       /**< 0 without groups */
     uint32_t rayCount;         /**< 0: nothing is recorded */
     const SuppleRay* hostRays; /**< rays of the host; or null */
-    /** Or rays of the device, from its offset on, a multiple of 4: a buffer with VK_BUFFER_USAGE_TRANSFER_SRC_BIT. Its
-     * stride is not asked. */
+    /** Or rays of the device, from its offset on, a multiple of 4: a buffer with VK_BUFFER_USAGE_TRANSFER_SRC_BIT.
+     * They lie 32 bytes apart, whatever its stride says. */
     SuppleBufferRange rays;
     /** Optional: what the rays have met of triangles that were drawn at a rate, one for each ray. Then rays are not
      * cast. A hit is the point of the triangle's face that the ray comes nearest to, near that t. It may lie beside its
      * ray, as triangles reach beyond the surface at silhouettes. If there is no such triangle, or no such point,
-     * nothing is met. Groups with levels have no triangles to name. */
+     * nothing is met. Only surfaces of SUPPLE_TESSELLATION_GRIDS and INDEXED_MESH have triangles to name. */
     const SuppleTriangleHit* hostTriangles;
     SuppleBufferRange triangles; /**< or those of the device, as rays */
     SuppleSyncScope before; /**< what wrote the device's rays and triangles, and what used the hits of earlier frames */

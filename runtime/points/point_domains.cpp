@@ -1,11 +1,11 @@
-#include "runtime/points/point_pieces.h"
+#include "runtime/points/point_domains.h"
 
 #include "runtime/cpu_group.h"
 
 namespace supple::runtime {
 
-std::vector<Piece> piecesOf(const CpuGroup& group) {
-    std::vector<Piece> pieces;
+std::vector<PointDomain> pointDomains(const CpuGroup& group) {
+    std::vector<PointDomain> domains;
     const cage::Cage& cage = group.cage();
     for (uint32_t face = 0; face < cage.faceCount(); ++face) {
         const uint32_t sides = cage.sides(face);
@@ -13,10 +13,10 @@ std::vector<Piece> piecesOf(const CpuGroup& group) {
             continue; // a hole
         }
         for (uint32_t side = 0; side < (sides > 4 ? sides : 1); ++side) {
-            pieces.push_back({face, side, sides == 4});
+            domains.push_back({face, side, sides == 4});
         }
     }
-    return pieces;
+    return domains;
 }
 
 std::vector<Cell> cellsOf(bool isQuad, uint32_t along) {

@@ -18,15 +18,18 @@ class CpuGroup;
     return {v[0], v[1], v[2]};
 }
 
-/// A quad, a triangle, or of a face of more sides the triangle of a side and the middle.
-struct Piece {
+inline constexpr SuppleSurfacePoint kNoPoint{SUPPLE_NO_FACE, 0, 0.0f, 0.0f};
+
+/// What the numbers of a surface point run over: a quad, a triangle, or the triangle of a side and the middle of a face
+/// of more sides.
+struct PointDomain {
     uint32_t face = 0, side = 0;
     bool isQuad = false;
 
     [[nodiscard]] SuppleSurfacePoint at(double a, double b) const {
         return {face, side, static_cast<float>(a), static_cast<float>(b)};
     }
-    /// Back into the piece.
+    /// Back into the domain.
     [[nodiscard]] glm::dvec2 held(glm::dvec2 at) const {
         at = glm::clamp(at, 0.0, 1.0);
         if (!isQuad && at.x + at.y > 1.0) { // straight to the slant
@@ -38,23 +41,23 @@ struct Piece {
     }
 };
 /// In the order of faces, without holes.
-[[nodiscard]] std::vector<Piece> piecesOf(const CpuGroup& group);
+[[nodiscard]] std::vector<PointDomain> pointDomains(const CpuGroup& group);
 
-/// A part of a piece: a square, or a triangle in a triangle.
+/// A part of a domain: a square, or a triangle in a triangle.
 struct Cell {
     glm::dvec2 origin{0.0}, x{0.0}, y{0.0};
 
     [[nodiscard]] double size(bool isQuad) const { return (isQuad ? 1.0 : 0.5) * std::abs(x.x * y.y - x.y * y.x); }
     [[nodiscard]] glm::dvec2 middle(bool isQuad) const { return origin + (isQuad ? 0.5 : 1.0 / 3.0) * (x + y); }
 };
-/// `along`: cells at a side of the piece.
+/// `along`: cells at a side of the domain.
 [[nodiscard]] std::vector<Cell> cellsOf(bool isQuad, uint32_t along);
-/// How many a piece of a face is looked at by: faces of many sides have enough pieces.
+/// How many a domain of a face is looked at by: faces of many sides have enough domains.
 [[nodiscard]] inline uint32_t cellsAlong(uint32_t sides) {
     return sides <= 8 ? 4 : sides <= 32 ? 2 : 1;
 }
 
-/// Samples of a piece stand in rows of `b`; those of a triangle become shorter.
+/// Samples of a domain stand in rows of `b`; those of a triangle become shorter.
 struct SampleGrid {
     bool isQuad = false;
     uint32_t along = 0;
