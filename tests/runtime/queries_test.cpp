@@ -25,7 +25,7 @@
 namespace supple::test {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
 
 cage::Character bendingTube(uint32_t sides = 7) {
     cage::Character tube = riggedTube({.segments = 5, .sides = sides});
@@ -361,7 +361,6 @@ TEST_F(Queries, SayWhichInstanceOfWhichGroupIsMet) {
 
 /// Rays with numbers that are none meet nothing, and the others are as without them.
 TEST_F(Queries, BadRaysMeetNothing) {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<SuppleRay> bad{
         rayOf({kNan, 0.2f, 9.0f}, {0, 0, -1}),          rayOf({kInfinity, 0.2f, 9.0f}, {0, 0, -1}),
         rayOf({0.9f, 0.2f, 9.0f}, {0, 0, 0}),           rayOf({0.9f, 0.2f, 9.0f}, {0, kNan, -1}),
@@ -572,7 +571,7 @@ TEST_F(Queries, MissInstancesThatAreNotFinite) {
         (void)crowd.spawn(), (void)crowd.spawn();
         std::vector<glm::vec4> cages[2];
         for (const glm::vec3& p : ball.positions) {
-            cages[0].emplace_back(std::numeric_limits<float>::quiet_NaN(), p.y, kInfinity, 1.0f);
+            cages[0].emplace_back(kNan, p.y, kInfinity, 1.0f);
             cages[1].emplace_back(p, 1.0f);
         }
         const SuppleBufferRange range = crowd.output().info.deformedCage;
@@ -694,7 +693,6 @@ TEST_F(Queries, RefineNothingOfTrianglesThatAreNone) {
     poseInRow(crowd, {crowd.spawn()});
     const SuppleRay ray = rows(1)[0];
     const SuppleHit cast = pool.run({ray})[0];
-    const float kNan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<SuppleTriangleHit> triangles{{SUPPLE_NO_HIT, 0, 0, 0, 0, cast.t, {}},
                                                    {1, 0, 0, 0, 0, cast.t, {}},
                                                    {0, 1, 0, 0, 0, cast.t, {}},
