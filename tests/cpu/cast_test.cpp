@@ -15,8 +15,6 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <limits>
-#include <optional>
-#include <random>
 
 namespace supple::test {
 namespace {

@@ -3,9 +3,9 @@
 #include "tests/support/found_points.h"
 
 #include <array>
-#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <utility>
 
 namespace supple::test {
 namespace {
@@ -32,12 +32,7 @@ GltfBuilder flatPatch(const std::string& nodes = R"([{"mesh":0}])") {
 }
 
 Surfaces surfacesOfFile(const GltfBuilder& b, SuppleScheme scheme, const cage::GltfOptions& options = kKeepTriangles) {
-    SuppleGroupDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.scheme = scheme;
-    auto made = runtime::surfacesOf(runtime::Prepared::of(readWell(b, options)), desc);
-    EXPECT_TRUE(made.ok()) << (made ? "" : made.error().message);
-    return made ? *made : nullptr;
+    return surfacesOf(readWell(b, options), scheme);
 }
 
 std::vector<SuppleSurfacePoint> foundOfFile(const Surfaces& surfaces, const std::vector<SuppleGltfPoint>& asked) {
@@ -71,8 +66,8 @@ glm::vec3 placeInFile(uint32_t triangle, const std::array<float, 2>& weights) {
 }
 
 TEST(GltfPoints, LieInTheFacesThatTheTrianglesHaveBecome) {
-    for (const char* nodes : {R"([{"mesh":0}])", R"([{"mesh":0,"scale":[-1,1,1]}])"}) { // which turns faces round
-        const float side = nodes[10] == '}' ? 1.0f : -1.0f;
+    for (const auto& [nodes, side] : {std::pair(R"([{"mesh":0}])", 1.0f),
+                                      std::pair(R"([{"mesh":0,"scale":[-1,1,1]}])", -1.0f)}) { // turns faces round
         const Surfaces surfaces = surfacesOfFile(flatPatch(nodes), SUPPLE_SCHEME_CAGE);
         ASSERT_NE(surfaces, nullptr);
         for (uint32_t triangle = 0; triangle < 7; ++triangle) {

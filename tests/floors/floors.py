@@ -44,8 +44,8 @@ FLOORS = [line.split() for line in """
 """.strip().splitlines()]
 
 # What hosts get of Supple. These files include nothing else of the tree: they are installed without it.
-PUBLIC = ["runtime/include/", "shaders/supple_surface.glsl", "shaders/supple_patch.glsl", "shaders/supple_patch_layout.h", "shaders/trim.glsl",
-          "shaders/supple_depth_pyramid.comp"]
+PUBLIC = ["runtime/include/", "shaders/supple_surface.glsl", "shaders/supple_patch.glsl", "shaders/supple_patch_layout.h",
+          "shaders/trim.glsl", "shaders/supple_depth_pyramid.comp"]
 
 # Rooms that may include less than all floors below them: these rooms alone.
 ONLY = {

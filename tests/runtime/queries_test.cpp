@@ -6,6 +6,7 @@
 #include "tests/support/read_character.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/test_view.h"
 #include "tests/support/worst.h"
 #include "tools/common/procedural.h"
 
@@ -17,13 +18,14 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <tuple>
 
 namespace supple::test {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
 
 cage::Character bendingTube(uint32_t sides = 7) {
     cage::Character tube = riggedTube({.segments = 5, .sides = sides});
@@ -129,10 +131,8 @@ struct Figures {
     double beside = 0.0, off = 0.0, normal = 0.0;
     std::vector<double> apart; ///< from what the search on the CPU finds
 
-    [[nodiscard]] double median() {
-        std::sort(apart.begin(), apart.end());
-        return apart.empty() ? 0.0 : apart[apart.size() / 2];
-    }
+    void sort() { std::sort(apart.begin(), apart.end()); } ///< for median() and largest()
+    [[nodiscard]] double median() const { return apart.empty() ? 0.0 : apart[apart.size() / 2]; }
     [[nodiscard]] double largest() const { return apart.empty() ? 0.0 : apart.back(); }
 };
 
@@ -199,14 +199,16 @@ void compare(const Truth& truth, const runtime::CpuPose& pose, size_t k, const S
 constexpr double kMostWrong = 0.004;
 
 void print(SuppleScheme scheme, SuppleMapping mapping, Figures& own) {
-    const double median = own.median();
+    own.sort();
     std::printf("scheme %u %-7s %u of %u wrong, %u others than on the CPU; apart %.1e, at most %.1e; off %.1e, normal "
                 "%.1e, beside %.1e\n",
-                scheme, mappingName(mapping).c_str(), own.wrong, own.rays, own.differ, median, own.largest(), own.off,
-                own.normal, own.beside);
+                scheme, mappingName(mapping).c_str(), own.wrong, own.rays, own.differ, own.median(), own.largest(),
+                own.off, own.normal, own.beside);
 }
 
-class Queries : public CrowdContexts {};
+class Queries : public CrowdContexts {
+    const ValidationGuard guard_;
+};
 
 constexpr SuppleScheme kQuerySchemes[] = {SUPPLE_SCHEME_PREP,      SUPPLE_SCHEME_PM,    SUPPLE_SCHEME_CATMULL_CLARK,
                                           SUPPLE_SCHEME_LOOP,      SUPPLE_SCHEME_BLEND, SUPPLE_SCHEME_POLYGONS,
@@ -226,11 +228,9 @@ void compareCharacter(CrowdContext& own, const cage::Character& character, Suppl
     crowd.run();
     const std::vector<glm::vec3> cage = deformedCage(crowd, posed.slot, character.cage.positions.size());
     if (!truth) {
-        SuppleGroupDesc desc = groupDesc({}, scheme);
-        desc.structSize = sizeof(desc);
-        const auto surfaces = runtime::surfacesOf(runtime::Prepared::of(cage::Character(character)), desc);
-        ASSERT_TRUE(surfaces.ok());
-        truth = truthOf(*surfaces, cage, count, character.cage.faceCount() > 1000 ? 16 : 32);
+        const Surfaces surfaces = surfacesOf(character, scheme);
+        ASSERT_NE(surfaces, nullptr);
+        truth = truthOf(surfaces, cage, count, character.cage.faceCount() > 1000 ? 16 : 32);
     }
     ASSERT_EQ(cage, truth->cage);
     const std::vector<SuppleHit> hits = pool.run(raysOf(truth->rays));
@@ -254,12 +254,15 @@ TEST_F(Queries, RaysMeetWhatDenseTrianglesDo) {
             compareCharacter(context(mapping), bendingTube(), scheme, 200, truth, own);
             print(scheme, mapping, own);
             all.wrong += own.wrong;
+            all.differ += own.differ;
             all.rays += own.rays;
             EXPECT_LE(own.off, 2e-5);
             EXPECT_LE(own.beside, 3e-6);
+            EXPECT_LE(own.normal, 1e-2);
         }
     }
     EXPECT_LE(all.wrong, kMostWrong * all.rays);
+    EXPECT_LE(all.differ, kMostWrong * all.rays);
 }
 
 /// The character of the samples, bent by a clip.
@@ -276,10 +279,14 @@ TEST_F(Queries, RaysMeetABentCharacter) {
         compareCharacter(context(mapping), character, scheme, 120, truth, own);
         print(scheme, mapping, own);
         all.wrong += own.wrong;
+        all.differ += own.differ;
         all.rays += own.rays;
         EXPECT_LE(own.off, 3e-4);
+        EXPECT_LE(own.beside, 3e-5);
+        EXPECT_LE(own.normal, 5e-2);
     }
     EXPECT_LE(all.wrong, kMostWrong * all.rays);
+    EXPECT_LE(all.differ, kMostWrong * all.rays);
 }
 
 /// Where the first of some rays begins.
@@ -354,7 +361,6 @@ TEST_F(Queries, SayWhichInstanceOfWhichGroupIsMet) {
 
 /// Rays with numbers that are none meet nothing, and the others are as without them.
 TEST_F(Queries, BadRaysMeetNothing) {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<SuppleRay> bad{
         rayOf({kNan, 0.2f, 9.0f}, {0, 0, -1}),          rayOf({kInfinity, 0.2f, 9.0f}, {0, 0, -1}),
         rayOf({0.9f, 0.2f, 9.0f}, {0, 0, 0}),           rayOf({0.9f, 0.2f, 9.0f}, {0, kNan, -1}),
@@ -497,6 +503,50 @@ TEST_F(Queries, FollowTheirGroups) {
     });
 }
 
+/// No level of detail changes a hit. Who is out of sight is met only if the group poses all.
+TEST_F(Queries, MeetGroupsOfViews) {
+    const glm::vec3 behind(0.0f, 0.0f, 500.0f); // the camera
+    const std::vector<SuppleRay> rays{rayOf(beside(0), {0.0f, 0.0f, -0.5f}),
+                                      rayOf(beside(1) + behind, {0.0f, 0.0f, -0.5f})};
+    const auto poseBoth = [&](Crowd& crowd) {
+        crowd.pose(crowd.spawn(), 0, 0.4, glm::mat4(1.0f));
+        crowd.pose(crowd.spawn(), 0, 0.6, glm::translate(glm::mat4(1.0f), behind + glm::vec3(0.0f, 3.0f, 0.0f)));
+    };
+    for (const SuppleMapping mapping : kMappings) {
+        CrowdContext& own = context(mapping);
+        SuppleGroupDesc desc = groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_PM, 2);
+        Crowd atRate(own, desc);
+        Pool ofRate(own, {atRate.group()}, 2);
+        poseBoth(atRate);
+        const std::vector<SuppleHit> wanted = ofRate.run(rays);
+        for (uint32_t k = 0; k < 2; ++k) {
+            EXPECT_EQ(wanted[k].group, 0u);
+            EXPECT_EQ(wanted[k].slot, k);
+        }
+        for (const bool posesUnseen : {false, true}) {
+            SCOPED_TRACE(mappingName(mapping) + (posesUnseen ? ", all are posed" : ""));
+            TestView view(own, 1u << 17, SUPPLE_VIEW_CULL);
+            desc.view = view.handle();
+            desc.flags = posesUnseen ? SUPPLE_GROUP_POSE_UNSEEN : 0;
+            Crowd seen(own, desc);
+            ASSERT_TRUE(seen.valid());
+            Pool pool(own, {seen.group()}, 2);
+            poseBoth(seen);
+            std::vector<uint32_t> vertices;
+            for (const float away : {20.0f, 400.0f}) {
+                view.look({4.0f, 0.0f, away}, {4.0f, 0.0f, 0.0f}, glm::perspectiveRH_ZO(0.9f, 1.0f, 0.1f, 1000.0f));
+                const std::vector<SuppleHit> hits = pool.run(rays);
+                EXPECT_TRUE(haveSameBits({hits[0]}, {wanted[0]})) << away;
+                EXPECT_EQ(hits[1].group, posesUnseen ? 0u : SUPPLE_NO_HIT) << away;
+                EXPECT_EQ(haveSameBits({hits[1]}, {wanted[1]}), posesUnseen) << away;
+                EXPECT_EQ(view.statistics().drawnInstanceCount, 1u) << away;
+                vertices.push_back(view.statistics().vertexCount);
+            }
+            EXPECT_LT(vertices[1], vertices[0]) << "the level is another one";
+        }
+    }
+}
+
 /// What a pose mirrors has its normals outside.
 TEST_F(Queries, MeetMirroredInstances) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
@@ -521,7 +571,7 @@ TEST_F(Queries, MissInstancesThatAreNotFinite) {
         (void)crowd.spawn(), (void)crowd.spawn();
         std::vector<glm::vec4> cages[2];
         for (const glm::vec3& p : ball.positions) {
-            cages[0].emplace_back(std::numeric_limits<float>::quiet_NaN(), p.y, kInfinity, 1.0f);
+            cages[0].emplace_back(kNan, p.y, kInfinity, 1.0f);
             cages[1].emplace_back(p, 1.0f);
         }
         const SuppleBufferRange range = crowd.output().info.deformedCage;
@@ -589,6 +639,8 @@ TEST_F(Queries, RefineHitsOfTriangles) {
          {Case{SUPPLE_SCHEME_PM, 0}, Case{SUPPLE_SCHEME_CATMULL_CLARK, 0},
           Case{SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_GROUP_INDEXED_MESH}, Case{SUPPLE_SCHEME_LOOP, 0},
           Case{SUPPLE_SCHEME_POLYGONS, 0}, Case{SUPPLE_SCHEME_FRAGMENTS, 0}}) {
+        const Surfaces surfaces = surfacesOf(tube, scheme);
+        ASSERT_NE(surfaces, nullptr);
         for (const SuppleMapping mapping : kMappings) {
             SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
             CrowdContext& own = context(mapping);
@@ -603,11 +655,7 @@ TEST_F(Queries, RefineHitsOfTriangles) {
             crowd.pose(posed, 0, 0.8, glm::translate(glm::mat4(1.0f), {0.0f, 30.0f, 0.0f}));
             crowd.run();
             const std::vector<glm::vec3> cage = deformedCage(crowd, posed.slot, tube.cage.positions.size());
-            SuppleGroupDesc onCpu = groupDesc({}, scheme);
-            onCpu.structSize = sizeof(onCpu);
-            const auto surfaces = runtime::surfacesOf(runtime::Prepared::of(cage::Character(tube)), onCpu);
-            ASSERT_TRUE(surfaces.ok());
-            const std::vector<TestRay> rays = raysAt(DenseTriangles(*surfaces, cage, 2), *surfaces, cage, 80);
+            const std::vector<TestRay> rays = raysAt(DenseTriangles(surfaces, cage, 2), surfaces, cage, 80);
             const std::vector<DrawnTriangle> triangles = drawnTriangles(crowd, posed.slot);
             std::vector<SuppleTriangleHit> hardware;
             for (const TestRay& ray : rays) {
@@ -645,7 +693,6 @@ TEST_F(Queries, RefineNothingOfTrianglesThatAreNone) {
     poseInRow(crowd, {crowd.spawn()});
     const SuppleRay ray = rows(1)[0];
     const SuppleHit cast = pool.run({ray})[0];
-    const float kNan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<SuppleTriangleHit> triangles{{SUPPLE_NO_HIT, 0, 0, 0, 0, cast.t, {}},
                                                    {1, 0, 0, 0, 0, cast.t, {}},
                                                    {0, 1, 0, 0, 0, cast.t, {}},
@@ -696,18 +743,15 @@ TEST(QueryPieces, AreFew) {
     for (const auto& [scheme, mostPieces, mostBytes] :
          {std::tuple(SUPPLE_SCHEME_PM, 3u, 1000u), std::tuple(SUPPLE_SCHEME_CATMULL_CLARK, 5u, 1300u),
           std::tuple(SUPPLE_SCHEME_CAGE, 1u, 120u)}) {
-        SuppleGroupDesc desc{};
-        desc.structSize = sizeof(desc);
-        desc.scheme = scheme;
-        const auto surfaces = runtime::surfacesOf(runtime::Prepared::of(readCharacter(kPipQuads)), desc);
-        ASSERT_TRUE(surfaces.ok());
-        const auto table = runtime::pieceTable(**surfaces, 1u << 24u);
+        const Surfaces surfaces = surfacesOf(readCharacter(kPipQuads), scheme);
+        ASSERT_NE(surfaces, nullptr);
+        const auto table = runtime::pieceTable(*surfaces, 1u << 24u);
         ASSERT_TRUE(table.ok());
-        const size_t faces = (*surfaces)->cage().faceCount(), bytes = 4 * table->words.size();
+        const size_t faces = surfaces->cage().faceCount(), bytes = 4 * table->words.size();
         std::printf("scheme %u: %u pieces of %zu faces, %zu bytes\n", scheme, table->pieceCount, faces, bytes);
         EXPECT_LE(table->pieceCount, mostPieces * faces);
         EXPECT_LE(bytes, mostBytes * faces);
-        const auto refused = runtime::pieceTable(**surfaces, 1000);
+        const auto refused = runtime::pieceTable(*surfaces, 1000);
         ASSERT_FALSE(refused.ok());
         EXPECT_EQ(refused.error().code, ErrorCode::limit);
     }

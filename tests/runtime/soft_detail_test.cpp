@@ -63,7 +63,8 @@ TEST_F(SoftDetail, OnlySpringsAreLeftBelowASize) {
             EXPECT_EQ(sized.shown(), springs.shown());
         } else if (step > 86 && step < 100) {
             EXPECT_EQ(sized.shown(), none.shown());
-        } else if (step == 99 || step == 149) {
+        }
+        if (step == 99 || step == 149) {
             EXPECT_GT(farthestApart(all.shown(), none.shown()), 1e-3);
         }
     }

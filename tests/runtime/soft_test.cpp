@@ -165,15 +165,12 @@ TEST_F(Soft, LightClothsHaveTheWordsOfTheCpu) {
         for (uint32_t f = 0; f < 20; ++f) {
             const double time = 0.021 * f;
             const glm::mat4 place = glm::translate(glm::mat4(1.0f), glm::vec3(0.05f * static_cast<float>(f), 0, 0));
-            for (uint32_t i = 0; i < 2; ++i) {
-                for (const SoftGroup* const group : {&soft, &stiff}) {
-                    if (f == 0) {
-                        group->play(i, i, 0.1 * i);
-                    }
+            for (const SoftGroup* const group : {&soft, &stiff}) {
+                for (uint32_t i = 0; i < 2 && f == 0; ++i) {
+                    group->play(i, i, 0.1 * i);
                 }
+                group->place(1, place);
             }
-            soft.place(1, place);
-            stiff.place(1, place);
             cpu.move(1, place, f == 0 ? 0.0 : 0.021 * (f - 1));
             soft.frame(time);
             stiff.frame(time);

@@ -1,4 +1,4 @@
-// Points that searches find on the surfaces of a cage, without a context.
+// Points that searches find on the surfaces of a cage or a character, without a context.
 #pragma once
 
 #include "runtime/arrays/character_arrays.h"
@@ -16,16 +16,19 @@ namespace supple::test {
 
 using Surfaces = std::shared_ptr<const runtime::CpuGroup>;
 
+inline Surfaces surfacesOf(cage::Character character, SuppleScheme scheme) {
+    SuppleGroupDesc desc{};
+    desc.structSize = sizeof(desc);
+    desc.scheme = scheme;
+    auto made = runtime::surfacesOf(runtime::Prepared::of(std::move(character)), desc);
+    EXPECT_TRUE(made.ok()) << (made ? "" : made.error().message);
+    return made ? *made : nullptr;
+}
 inline Surfaces surfacesOf(const cage::Cage& cage, SuppleScheme scheme) {
     const host::CageArrays arrays(cage);
     Result<cage::Character> character = runtime::characterFromArrays(arrays.desc, "test cage");
     EXPECT_TRUE(character.ok());
-    SuppleGroupDesc desc{};
-    desc.structSize = sizeof(desc);
-    desc.scheme = scheme;
-    auto made = runtime::surfacesOf(runtime::Prepared::of(std::move(*character)), desc);
-    EXPECT_TRUE(made.ok()) << (made ? "" : made.error().message);
-    return made ? *made : nullptr;
+    return surfacesOf(std::move(*character), scheme);
 }
 
 inline SupplePointQuery queryOf(SupplePointQueryKind kind, size_t count, const float* values = nullptr) {

@@ -59,15 +59,17 @@ public:
         return glm::dmat4(glm::make_mat4(m));
     }
     [[nodiscard]] glm::dvec3 placeOf(uint32_t i, uint32_t joint) const { return glm::dvec3(jointOf(i, joint)[3]); }
-    [[nodiscard]] double extent() const {
+    /// Of the box that holds the cage at rest.
+    [[nodiscard]] glm::vec3 sizeAtRest() const {
         const cage::Cage& cage = character().cage;
         glm::vec3 low(cage.positions[0]), high(low);
         for (const glm::vec3& p : cage.positions) {
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
-        return static_cast<double>(glm::length(high - low));
+        return high - low;
     }
+    [[nodiscard]] double extent() const { return static_cast<double>(glm::length(sizeAtRest())); }
 
     void play(uint32_t i, uint32_t clip, double offset, uint32_t rootMotion = 0, uint32_t flags = 0) const {
         SupplePlaybackDesc desc{};

@@ -34,12 +34,7 @@ public:
 
     /// Of the box that holds the cage at rest.
     [[nodiscard]] float longestSide() const {
-        glm::vec3 low(character().cage.positions[0]), high(low);
-        for (const glm::vec3& p : character().cage.positions) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-        const glm::vec3 size = high - low;
+        const glm::vec3 size = sizeAtRest();
         return std::max({size.x, size.y, size.z});
     }
 

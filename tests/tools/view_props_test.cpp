@@ -139,8 +139,7 @@ bool isGreen(const uint8_t* pixel) {
     return pixel[1] > 40 && pixel[1] > 2 * pixel[0] && pixel[1] > 2 * pixel[2];
 }
 
-/// Of the points that face the camera, lie inside of the picture and are hidden by nothing: how many, and how many of
-/// them are green.
+/// How many points well inside a decal face the camera, and how many of them are green.
 struct Green {
     uint32_t seen = 0, green = 0;
 };
