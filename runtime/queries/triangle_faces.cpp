@@ -22,10 +22,23 @@ SuppleGridOutput gridOf(const Tessellation& surface) {
     return grid;
 }
 
+/// Segments along a patch edge of a surface whose cage takes so many steps, from those along an edge of the cage.
+uint32_t patchRate(uint32_t rate, uint32_t steps) {
+    return (rate + (1u << steps) - 1) >> steps;
+}
+
+/// How the shader finds the rate of a surface: from the group's, unless it is one that no group's rate gives.
+uint32_t rateWord(const Tessellation& surface, uint32_t groupRate) {
+    const uint32_t steps = surface.tables().isolationSteps, own = gridOf(surface).rate;
+    return steps << kTriangleStepsShift | (own == patchRate(groupRate, steps) ? 0 : own << kTriangleRateShift);
+}
+
 /// Adds the runs of a surface's ranges, where `ranges` says that they begin. A mesh has all patches of one material and
 /// one part in a range.
-void addRuns(const Tessellation& surface, uint32_t firstFace, size_t ranges, std::vector<uint32_t>& words) {
+void addRuns(const Tessellation& surface, uint32_t groupRate, uint32_t firstFace, size_t ranges,
+             std::vector<uint32_t>& words) {
     const SuppleGridOutput grid = gridOf(surface);
+    const uint32_t rate = rateWord(surface, groupRate);
     const std::vector<surface::DrawRange>& patches = surface.tables().drawRanges;
     for (uint32_t g = 0; g < grid.drawRangeCount; ++g) {
         const SuppleDrawRange& range = grid.drawRanges[g];
@@ -35,8 +48,9 @@ void addRuns(const Tessellation& surface, uint32_t firstFace, size_t ranges, std
             const bool isOwn =
                 range.domain == SUPPLE_DOMAIN_MESH ? run.part == range.part && run.material == range.material : k == g;
             if (isOwn) {
-                words.insert(words.end(), {isPolygons(surface) ? kSingleTriangles : static_cast<uint32_t>(run.domain),
-                                           run.patchCount, firstFace + run.firstPatch});
+                words.insert(words.end(),
+                             {isPolygons(surface) ? kSingleTriangles : static_cast<uint32_t>(run.domain) | rate,
+                              run.patchCount, firstFace + run.firstPatch});
                 ++words[ranges + 2 * g + 1];
             }
         }
@@ -46,14 +60,19 @@ void addRuns(const Tessellation& surface, uint32_t firstFace, size_t ranges, std
 } // namespace
 
 uint32_t rateOf(const Surfaces& surfaces) {
-    uint32_t rate = 1;
+    uint32_t rate = 1, leastSteps = UINT32_MAX;
     for (const auto& surface : surfaces) {
-        rate = hasTriangles(*surface) && !isPolygons(*surface) ? gridOf(*surface).rate : rate;
+        const uint32_t steps = surface->tables().isolationSteps;
+        if (hasTriangles(*surface) && !isPolygons(*surface) && steps < leastSteps) {
+            leastSteps = steps;
+            rate = gridOf(*surface).rate << steps;
+        }
     }
     return rate;
 }
 
 std::vector<uint32_t> triangleFaces(const Surfaces& surfaces, std::span<const FacePieces> pieces) {
+    const uint32_t groupRate = rateOf(surfaces);
     std::vector<uint32_t> words(kTriangleHeaderWords + 2 * surfaces.size());
     words[kTriangleSurfaces] = static_cast<uint32_t>(surfaces.size());
     words[kTriangleFaces] = static_cast<uint32_t>(pieces.size());
@@ -69,7 +88,7 @@ std::vector<uint32_t> triangleFaces(const Surfaces& surfaces, std::span<const Fa
             for (const surface::PatchInfo& patch : surface.tables().patches) {
                 words.push_back(patch.face);
             }
-            addRuns(surface, firstFace, ranges, words);
+            addRuns(surface, groupRate, firstFace, ranges, words);
         }
     }
     words[kTriangleFacePieces] = static_cast<uint32_t>(words.size());

@@ -12,7 +12,8 @@ namespace supple::runtime {
 
 /// Surfaces that draw no grids or meshes have no triangles.
 [[nodiscard]] std::vector<uint32_t> triangleFaces(const Surfaces& surfaces, std::span<const FacePieces> pieces);
-/// The rate of grids and meshes.
+/// The rate of a group with grids or meshes: segments along an edge of the cage. If the cages of all surfaces take
+/// steps, those of the patches tell no more than a multiple of two that gives the same patches.
 [[nodiscard]] uint32_t rateOf(const Surfaces& surfaces);
 
 } // namespace supple::runtime

@@ -14,8 +14,10 @@ const float kMostBeside = 0.1;
 // A point that is beside the ray counts as if it were so many times as far behind the triangle.
 const float kBesideWeight = 16.0;
 
-uint trianglesOf(uint domain) {
-    uint r = push.rate;
+// Of a patch of the run.
+uint trianglesOf(uint run) {
+    uint domain = run & 0xFFu, steps = run >> kTriangleStepsShift & 0xFFu, own = run >> kTriangleRateShift;
+    uint r = own > 0u ? own : (push.rate + (1u << steps) - 1u) >> steps;
     return domain == kQuadDomain ? 2u * r * r : domain == kPolarDomain ? 2u * r * r - r : domain == kTriangleDomain ? r * r : domain == kPentagonDomain ? 5u * r * r : 1u;
 }
 

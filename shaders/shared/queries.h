@@ -18,7 +18,8 @@
 //
 // Triangles (words), for hits of what draws the surfaces: a header, then for each surface where its ranges begin and how many
 // there are; for each range where its runs of patches begin and how many there are; runs of kTriangleRunWords: the domain of the
-// patches or kSingleTriangles, how many there are, where their faces begin; faces, a word a patch; for each face of the cage its
+// patches, with how often the cage was subdivided and, if the group's rate does not give it, the rate, or kSingleTriangles; how many
+// patches there are; where their faces begin; faces, a word a patch; for each face of the cage its
 // first piece and how many it has.
 #ifndef SUPPLE_SHARED_QUERIES_H
 #define SUPPLE_SHARED_QUERIES_H
@@ -50,6 +51,8 @@ SUPPLE_SHARED_CONST kTriangleFaces = 1u;      // of the cage
 SUPPLE_SHARED_CONST kTriangleFacePieces = 2u; // where they begin
 SUPPLE_SHARED_CONST kTriangleHeaderWords = 3u;
 SUPPLE_SHARED_CONST kTriangleRunWords = 3u;
+SUPPLE_SHARED_CONST kTriangleStepsShift = 8u;
+SUPPLE_SHARED_CONST kTriangleRateShift = 16u; // 0: of the group
 SUPPLE_SHARED_CONST kSingleTriangles = 0xFFu; // patches that are triangles of the cage, at any rate
 
 SUPPLE_SHARED_CONST kNothingMet = 0xFFFFFFFFu;
@@ -73,7 +76,7 @@ struct QueryPush {
     uint group;         // its number in the pool
     uint firstSlot;     // of the window
     uint firstTriangle; // refine: the first hit of a triangle, in rays
-    uint rate;          // refine: of grids and meshes
+    uint rate;          // refine: of the group, along an edge of the cage
     uint writesMisses;  // 1: of all windows this one writes the rays that meet nothing
     float reach;        // the largest of the pieces
 };
