@@ -6,6 +6,8 @@
 #include "tests/support/read_character.h"
 #include "tests/support/rigged_tube.h"
 #include "tests/support/sample_assets.h"
+#include "tests/support/side_by_side.h"
+#include "tests/support/subdivision_zoo.h"
 #include "tests/support/test_view.h"
 #include "tests/support/worst.h"
 #include "tools/common/procedural.h"
@@ -593,9 +595,14 @@ struct DrawnTriangle {
     uint32_t geometry = 0, primitive = 0;
     std::array<glm::dvec3, 3> corners{};
 };
-std::vector<DrawnTriangle> drawnTriangles(const Crowd& crowd, uint32_t slot) {
-    const SuppleGridOutput grid = crowd.output().grid;
-    const std::vector<glm::vec3> vertices = asPositions(crowd.positions(slot));
+std::vector<DrawnTriangle> drawnTriangles(const Crowd& crowd, uint32_t slot, uint32_t surface = 0) {
+    const SuppleGridOutput grid = crowd.output(surface).grid;
+    const SuppleBufferRange stream = crowd.output(surface).streams.vertices;
+    const std::vector<std::byte> stored = crowd.slotBytes(stream, slot);
+    std::vector<glm::vec3> vertices(stored.size() / stream.stride);
+    for (size_t v = 0; v < vertices.size(); ++v) {
+        std::memcpy(&vertices[v], &stored[v * stream.stride], sizeof(vertices[v]));
+    }
     const std::vector<std::byte> bytes = crowd.read(grid.indices);
     const auto small = as<uint16_t>(bytes);
     const auto large = as<uint32_t>(bytes);
@@ -681,6 +688,46 @@ TEST_F(Queries, RefineHitsOfTriangles) {
                         mappingName(mapping).c_str(), triangles.size(), same, met);
             EXPECT_GT(met, 40u);
             EXPECT_GE(same, met - met / 20); // silhouettes differ
+        }
+    }
+}
+
+/// Two balls of triangles. Catmull-Clark subdivides the first one before it has patches, so these have half the rate.
+TEST_F(Queries, RefineHitsOfSurfacesAtOtherRates) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    const std::array schemes{SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP};
+    SuppleGroupDesc desc =
+        groupDesc(own.createAsset(sideBySide(inTriangles(cage::makeCubeSphere(2)), "ball", 2)), SUPPLE_SCHEME_AUTO);
+    desc.rate = 5;
+    desc.partSchemes = schemes.data();
+    desc.partSchemeCount = 2;
+    Crowd crowd(own, desc);
+    ASSERT_TRUE(crowd.valid());
+    Pool pool(own, {crowd.group()}, 1024);
+    const SuppleInstance instance = crowd.spawn();
+    poseInRow(crowd, {instance});
+    for (const uint32_t rate : {5u, 4u}) {
+        ASSERT_EQ(suppleSetRate(own.handle(), crowd.group(), rate), SUPPLE_OK);
+        crowd.run();
+        ASSERT_NE(crowd.output(0).grid.rates[0].rate, crowd.output(1).grid.rates[0].rate);
+        for (uint32_t surface = 0; surface < 2; ++surface) {
+            std::vector<SuppleRay> rays;
+            std::vector<SuppleTriangleHit> hardware;
+            std::vector<glm::dvec3> middles;
+            const std::vector<DrawnTriangle> triangles = drawnTriangles(crowd, instance.slot, surface);
+            for (size_t k = 0; k < triangles.size(); k += triangles.size() / 500) {
+                const auto& [a, b, c] = triangles[k].corners;
+                const glm::dvec3 out = glm::normalize(glm::cross(b - a, c - a)), middle = (a + b + c) / 3.0;
+                middles.push_back(middle);
+                rays.push_back(rayOf(middle + out, -out));
+                hardware.push_back(
+                    {0, surface, instance.slot, triangles[k].geometry, triangles[k].primitive, 1.0f, {}});
+            }
+            const std::vector<SuppleHit> hits = pool.run(rays, {}, hardware);
+            for (size_t k = 0; k < hits.size(); ++k) {
+                ASSERT_EQ(hits[k].group, 0u) << surface << ", rate " << rate << ", triangle " << k;
+                EXPECT_LT(glm::distance(runtime::vectorAt(hits[k].position), middles[k]), 0.02) << surface << " " << k;
+            }
         }
     }
 }
