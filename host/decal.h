@@ -57,11 +57,11 @@ struct Decal {
 };
 
 /// Projects a picture along the normal in its middle. It covers what faces that way, step by step from the middle on,
-/// so it does not come through to the other side and not onto an arm before it. It casts two
-/// rays a patch, in a few dozen calls of suppleFindPoints: about 0.1 ms a patch.
+/// so it does not come through to the other side, nor onto an arm before it. It casts
+/// about two rays a patch, in a few dozen calls of suppleFindPoints.
 ///
-/// Errors: a size, a depth or angles that are out of range; what suppleFindPoints refuses, such as a point that there
-/// is not; a middle without a tangent plane; a surface that is smaller than a patch.
+/// Errors: a size, a depth or angles that are out of range; what suppleFindPoints refuses, such as a point that does
+/// not exist; a middle without a tangent plane; a surface that is smaller than a patch.
 [[nodiscard]] Result<Decal> projectDecal(SuppleContext context, SuppleGroup group, const DecalDesc& desc);
 
 } // namespace supple::host

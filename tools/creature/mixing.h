@@ -1,4 +1,4 @@
-// Steps, mixtures and colours, for models and pictures alike.
+// Steps, mixtures and colors, for models and pictures alike.
 #pragma once
 
 #include "modeller.h"
@@ -22,14 +22,14 @@ inline Vec3 mix(const Vec3& a, const Vec3& b, double t) {
     return a + (b - a) * t;
 }
 
-// The linear colour of sRGB's 0xRRGGBB.
+// The linear color of sRGB's 0xRRGGBB.
 inline Vec3 srgb(unsigned hex) {
-    Vec3 colour;
+    Vec3 color;
     for (int i = 0; i < 3; ++i) {
         const double c = static_cast<double>((hex >> (16 - 8 * i)) & 0xff) / 255.0;
-        colour[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        color[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
     }
-    return colour;
+    return color;
 }
 
 } // namespace supple::creature

@@ -46,14 +46,14 @@ std::vector<Vec3> paint(const Cage& cage) {
             normals[static_cast<size_t>(point)] += normal;
         }
     }
-    std::vector<Vec3> colours(cage.points.size());
+    std::vector<Vec3> colors(cage.points.size());
     for (size_t i = 0; i < cage.points.size(); ++i) {
         const Point& point = cage.points[i];
         const Vec3 p = point.position;
         const Vec3 n = glm::normalize(normals[i]);
         // Skin is darker where it faces up and back.
         Vec3 skin = mix(kSkin, kBack, ramp(-0.2, 1.0, 0.55 * n.y - 0.75 * n.z));
-        Vec3& c = colours[i];
+        Vec3& c = colors[i];
         switch (point.part) {
         case Part::Torso:
             // Dark stripes over the back, bands across the belly.
@@ -143,7 +143,7 @@ std::vector<Vec3> paint(const Cage& cage) {
             break;
         }
     }
-    return colours;
+    return colors;
 }
 
 } // namespace supple::creature

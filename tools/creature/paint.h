@@ -1,4 +1,4 @@
-// Vertex colours, painted from the part, the place and the way the surface faces.
+// Vertex colors, painted from the part, the place and the way the surface faces.
 #pragma once
 
 #include "modeller.h"

@@ -14,7 +14,7 @@ namespace supple::creature {
 using Field = std::function<double(double, double)>;
 using Painting = std::function<Vec3(double, double)>;
 
-// sRGB-encoded from linear colours, or as they are.
+// sRGB-encoded from linear colors, or as they are.
 std::vector<std::byte> paintPng(int width, int height, bool srgb, const Painting& painting);
 // The normal map of heights that tile: `steep` is height in pixels.
 std::vector<std::byte> normalPng(int width, int height, double steep, const Field& heights);

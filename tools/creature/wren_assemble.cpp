@@ -36,8 +36,8 @@ void addFaces(cage::Cage& cage, const Cage& piece, uint32_t base, uint32_t part)
             const Vec2 uv = face.uvs.empty() ? boxed(piece.position(face.points[i]), normal) : face.uvs[i];
             const Vec2 at = uv * look.density;
             cage.cornerUvs.push_back({rounded(at.x), rounded(at.y)});
-            const Vec3 colour = look.colour * tint(face, piece.points[static_cast<size_t>(face.points[i])], uv);
-            cage.cornerColors.push_back({shade(colour.x), shade(colour.y), shade(colour.z), 1.0f});
+            const Vec3 color = look.color * tint(face, piece.points[static_cast<size_t>(face.points[i])], uv);
+            cage.cornerColors.push_back({shade(color.x), shade(color.y), shade(color.z), 1.0f});
         }
         cage.faceStarts.push_back(cage.cornerCount());
         cage.faceMaterials.push_back(look.material);

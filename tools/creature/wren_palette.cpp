@@ -160,7 +160,7 @@ Vec3 tint(const creature::Face& face, const Point& point, const Vec2& uv) {
     if (face.part != Part::Hair) {
         return Vec3(1);
     }
-    // No lock is quite the colour of the next. Roots are darker, tips have seen the sun.
+    // No lock is quite the color of the next. Roots are darker, tips have seen the sun.
     const double own = tiledNoise(point.shell * 1.7 + 0.4, 0.3, 512, 91);
     const Vec3 lock = own > 0 ? mix(Vec3(1), Vec3(1.30, 1.42, 1.30), own) : mix(Vec3(1), Vec3(0.66, 0.58, 0.60), -own);
     return lock * mix(0.62, 1.0, ramp(0.0, 0.07, uv.y)) * mix(Vec3(1), Vec3(1.18, 1.28, 1.2), ramp(0.14, 0.30, uv.y));

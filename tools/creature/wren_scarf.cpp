@@ -45,7 +45,7 @@ void addTail(Cage& cage, double shift, double length, double wide, double phase)
         cage, 5, 11, [&](double u, double v) { return surface(1 - u, v * -1 + 1); }, 0.007);
     creaseSheet(cage, made, 1.5f);
     cage.endShell();
-    // The end is of another colour.
+    // The end is of another color.
     for (size_t f = firstFace; f < cage.faces.size(); ++f) {
         if (cage.centre(cage.faces[f]).y < surface(0.5, 0.86).y) {
             cage.faces[f].part = Part::ScarfFringe;

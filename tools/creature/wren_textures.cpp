@@ -78,12 +78,12 @@ Vec3 eye(double u, double v) {
     const double rays = 0.5 + 0.5 * std::sin(a * 23 + 2.2 * std::sin(a * 7) + 3 * std::sin(a * 3 + 1));
     const double fine = 0.5 + 0.5 * std::sin(a * 61 + 3 * std::sin(a * 11));
     const double s = std::clamp((r - pupil) / (kIris - pupil), 0.0, 1.0);
-    Vec3 colour = mix(srgb(0x9c7a2c), srgb(0x2f7a5c), ramp(0.05, 0.55, s + 0.22 * (rays - 0.5)));
-    colour = mix(colour, srgb(0x6fc79a), 0.50 * (0.6 * rays + 0.4 * fine) * ramp(0.12, 0.45, s) * ramp(0.98, 0.6, s));
-    colour = colour * mix(1.25, 0.42, ramp(-0.30, 0.40, y)); // light gathers below
-    colour = mix(colour, srgb(0x0d2a26), 0.92 * ramp(0.74, 1.0, s));
-    colour = mix(srgb(0x060507), colour, ramp(pupil - 0.015, pupil + 0.035, r));
-    return mix(colour, white, ramp(kIris - 0.030, kIris + 0.040, r));
+    Vec3 color = mix(srgb(0x9c7a2c), srgb(0x2f7a5c), ramp(0.05, 0.55, s + 0.22 * (rays - 0.5)));
+    color = mix(color, srgb(0x6fc79a), 0.50 * (0.6 * rays + 0.4 * fine) * ramp(0.12, 0.45, s) * ramp(0.98, 0.6, s));
+    color = color * mix(1.25, 0.42, ramp(-0.30, 0.40, y)); // light gathers below
+    color = mix(color, srgb(0x0d2a26), 0.92 * ramp(0.74, 1.0, s));
+    color = mix(srgb(0x060507), color, ramp(pupil - 0.015, pupil + 0.035, r));
+    return mix(color, white, ramp(kIris - 0.030, kIris + 0.040, r));
 }
 
 // The iris is a bowl, with rays, below the cornea.

@@ -226,20 +226,24 @@ Status ViewStage::attach(const AttachedProp& what) {
         attachments_ = std::move(*made);
     }
     const Status added = tools::attach(*attachments_, what, extent_.bounds.radius());
-    if (added)
+    if (added) {
         attached_.push_back(what);
-    ++attachedChanges_;
+        ++attachedChanges_;
+    }
     return added;
 }
 
 Status ViewStage::takeOff(uint64_t lastFrame) {
     if (attached_.empty())
         return success();
+    const AttachedProp last = attached_.back();
     attached_.pop_back();
-    ++attachedChanges_;
     Result<std::unique_ptr<host::Attachments>> rest = createAttachments(*group_);
-    if (!rest)
+    if (!rest) {
+        attached_.push_back(last);
         return rest.error();
+    }
+    ++attachedChanges_;
     retired_.push_back({lastFrame, nullptr, nullptr, {}, std::move(attachments_)});
     attachments_ = std::move(*rest);
     return success();

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <future>
+#include <list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -240,7 +241,9 @@ private:
     Values values_;                                    ///< that the group has, or that are being measured
     std::future<Result<std::vector<float>>> measured_; ///< being computed
     uint32_t shownValues_ = 0;                         ///< counts measurements
-    std::vector<Retired> retired_;                     ///< before figure_ in time, so gone before it
+    /// Before figure_ in time, so gone before it. A vector would move elements over those that go, and free a group
+    /// before its attachments.
+    std::list<Retired> retired_;
     ViewPlayback playback_;
     Extent extent_;                    ///< over all clips
     std::vector<size_t> measuredEnds_; ///< by clip: behind its poses in extent_; none: the rest pose was measured
