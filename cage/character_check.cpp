@@ -142,6 +142,7 @@ void Check::sourceTriangles(const Cage& cage) {
     }
     require(sound, "a triangle of the file has corners of no one face");
     uint32_t before = 0;
+    sound = true;
     for (const SourcePrimitive& own : cage.sourcePrimitives) {
         sound = sound && own.firstTriangle >= before && own.firstTriangle <= corners.size() / 3;
         before = own.firstTriangle;

@@ -53,7 +53,7 @@ struct SupplePatchRange {
 
 /// A sample of a patch. The normal is a unit vector that points outwards, or zero where the derivatives vanish. The derivatives are
 /// those in the two parameters of the patch; of P_m patches along the side of the sample's sector, and from its first corner to the
-/// centre of the patch. Of polar patches du lacks the factor 1 - v, with which it would vanish at the apex.
+/// centre of the patch. In polar patches du lacks the factor 1 - v, with which it would vanish at the apex.
 struct SuppleSample {
     vec3 position, du, dv, normal;
 };
@@ -118,7 +118,7 @@ vec4 suppleBernstein3(vec2 pair) {
     return b;
 }
 vec3 suppleSlopes3(vec2 pair) { return vec3(3.0 * (pair.y * pair.y), 6.0 * (pair.x * pair.y), 3.0 * (pair.x * pair.x)); }
-// Of degree 5: B0, B1, B4, B5, and B2, B3.
+// Degree 5: B0, B1, B4, B5, and B2, B3.
 vec4 suppleOuter5(vec2 pair) {
     precise float t = pair.x, s = pair.y;
     precise float tt = t * t, ss = s * s;
@@ -152,7 +152,7 @@ vec3 suppleBlend4(vec4 w, vec3 a, vec3 b, vec3 c, vec3 d) { return w.x * a + w.y
 vec3 suppleBlend3(vec3 w, vec3 a, vec3 b, vec3 c) { return w.x * a + w.y * b + w.z * c; }
 vec3 suppleBlend2(vec2 w, vec3 a, vec3 b) { return w.x * a + w.y * b; }
 
-/// Of any length and size; zero stays zero.
+/// A unit vector along one of any length; zero stays zero.
 vec3 suppleUnit(vec3 v) {
     uint exponent = floatBitsToUint(max(max(abs(v.x), abs(v.y)), abs(v.z))) >> 23u;
     vec3 n = v * uintBitsToFloat((254u - clamp(exponent, 1u, 253u)) << 23u);

@@ -7,7 +7,7 @@
 const float kFloatMax = 3.402823466e38;
 shared vec3 lows[kMaxLanes], highs[kMaxLanes];
 
-// Of every step-th vertex from `first` on. What is not finite is left out.
+// The box of every step-th vertex from `first` on. Vertices that are not finite are left out.
 void boxOf(uint base, uint first, uint step, out vec3 low, out vec3 high) {
     low = vec3(kFloatMax);
     high = vec3(-kFloatMax);

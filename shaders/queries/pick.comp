@@ -38,7 +38,7 @@ void main() {
         vec3 c[kPieceCoefficients];
         loadCoefficients(own, c);
         turnTo(ray, own.first, c);
-        ray = rayOf(r);
+        ray = rayOf(r); // the whole range, so that both dispatches find the same point
         Met met = meet(own.kind, c, ray.from, ray.to, ray.from, toleranceFor(low, high, ray.origin), 0.0);
         if (met.distance < 0.0) continue;
         uint t = floatBitsToUint(met.distance / ray.unit);

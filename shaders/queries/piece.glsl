@@ -52,7 +52,7 @@ void basisOf(float x, out float b[4], out float d[4]) {
     b = float[4](y * y * y, 3.0 * y * y * x, 3.0 * y * x * x, x * x * x);
     d = float[4](-3.0 * y * y, 3.0 * y * (y - 2.0 * x), 3.0 * x * (2.0 * y - x), 3.0 * x * x);
 }
-// Row by row: where a row of a triangle's coefficients begins, and of the cubics that one step of de Casteljau's leaves.
+// Where row j of a triangle's coefficients begins.
 uint rowOfQuartic(uint j) { return j * 5u - j * (j - 1u) / 2u; }
 Jet jetAt(uint kind, vec3 c[kPieceCoefficients], vec2 at) {
     Jet jet = Jet(vec3(0.0), vec3(0.0), vec3(0.0));
@@ -89,7 +89,7 @@ Jet jetAt(uint kind, vec3 c[kPieceCoefficients], vec2 at) {
     return jet;
 }
 
-// Back into the piece; of a triangle's slant straight to it.
+// Brings a point back into the piece; one beyond a triangle's slant goes straight to the slant.
 vec2 held(uint kind, vec2 at) {
     at = clamp(at, vec2(0.0), vec2(1.0));
     float over = at.x + at.y - 1.0;
@@ -133,8 +133,8 @@ Met refined(uint kind, vec3 c[kPieceCoefficients], vec2 at) {
     return met;
 }
 
-// Of the points of a piece that the ray passes within the tolerance, the one nearest to the distance `near`, where what lies beside
-// the ray counts by a weight. `c`: as refined() has them.
+// The ray passes some points of a piece within the tolerance: this finds the one nearest to the distance `near`. How far a point lies
+// beside the ray counts by a weight. `c`: as refined() has them.
 Met meet(uint kind, vec3 c[kPieceCoefficients], float from, float to, float near, float tolerance, float weight) {
     vec3 low = c[0], high = c[0];
     uint count = kind == kSquarePiece ? 16u : 15u;
@@ -171,7 +171,7 @@ Met meet(uint kind, vec3 c[kPieceCoefficients], float from, float to, float near
     return best;
 }
 
-// By how much a hit may lie beside its ray: of the size of the instance, and what rounding leaves far from the origin.
+// By how much a hit may lie beside its ray: a part of the instance's size, and what rounding leaves far from the origin.
 float toleranceFor(vec3 low, vec3 high, vec3 origin) {
     vec3 farthest = max(max(abs(low), abs(high)), abs(origin));
     return 2e-6 * length(high - low) + 5e-7 * max(farthest.x, max(farthest.y, farthest.z));

@@ -65,7 +65,7 @@ bool mayMeet(Ray ray, vec3 low, vec3 high) {
     return all(lessThanEqual(off, most + slack)) && at + reach + slack >= ray.from && at - reach - slack <= ray.to;
 }
 
-// A box, and larger by a part of its size on each side.
+// Makes a box larger by a part of its size on each side.
 void grow(inout vec3 low, inout vec3 high, float part) {
     vec3 by = part * (high - low);
     low -= by;

@@ -1,5 +1,5 @@
-// Hits of triangles become points of the surface: a lane a hit. The triangle says which face of the cage was met. Of the points of
-// that face where the ray comes nearest, the one at the triangle's hit is taken.
+// Hits of triangles become points of the surface: a lane a hit. The triangle says which face of the cage was met. The ray
+// comes near to some points of that face: the one nearest to the triangle's hit is taken.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/mapping.glsl"
@@ -14,7 +14,7 @@ const float kMostBeside = 0.1;
 // A point that is beside the ray counts as if it were so many times as far behind the triangle.
 const float kBesideWeight = 16.0;
 
-// Of a patch of the run.
+// How many triangles a patch of the run has.
 uint trianglesOf(uint run) {
     uint domain = run & 0xFFu, steps = run >> kTriangleStepsShift & 0xFFu, own = run >> kTriangleRateShift;
     uint r = own > 0u ? own : (push.rate + (1u << steps) - 1u) >> steps;
