@@ -112,13 +112,16 @@ Status findGltfPoints(const CpuGroup& group, std::span<const SuppleGltfPoint> po
         return Error{ErrorCode::range, "the character was read from no glTF file, so it has no triangles of one"};
     }
     const std::vector<TriangleRun> runs = runsOf(cage);
+    std::vector<SuppleSurfacePoint> all; // a call that fails writes nothing
+    all.reserve(points.size());
     for (size_t k = 0; k < points.size(); ++k) {
         const Result<SuppleSurfacePoint> found = findOne(cage, runs, points[k]);
         if (!found) {
             return Error{found.error().code, "point " + std::to_string(k) + ": " + found.error().message};
         }
-        out[k] = *found;
+        all.push_back(*found);
     }
+    std::copy(all.begin(), all.end(), out.begin());
     return success();
 }
 
