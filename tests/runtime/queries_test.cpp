@@ -705,7 +705,7 @@ TEST_F(Queries, RefineHitsOfSurfacesAtOtherRates) {
     ASSERT_TRUE(crowd.valid());
     Pool pool(own, {crowd.group()}, 1024);
     const SuppleInstance instance = crowd.spawn();
-    poseInRow(crowd, {instance});
+    crowd.pose(instance, SUPPLE_BIND_POSE, 0.0, glm::mat4(1.0f));
     for (const uint32_t rate : {5u, 4u}) {
         ASSERT_EQ(suppleSetRate(own.handle(), crowd.group(), rate), SUPPLE_OK);
         crowd.run();

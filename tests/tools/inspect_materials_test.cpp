@@ -81,6 +81,22 @@ void expectTexture(const Json& gltf, const Json& owner, const char* key, const J
     expectNumber(transform, "scale", {1.0, 1.0}, told);
 }
 
+/// What the file says of layers. What it leaves out is told too.
+void expectLayers(const Json& gltf, const Json& extensions, const Json& layers) {
+    for (const auto& [name, told] : layers.items()) {
+        ASSERT_TRUE(extensions.contains(name)) << name;
+        for (const auto& [key, value] : extensions[name].items()) {
+            SCOPED_TRACE(name + " " + key);
+            ASSERT_TRUE(told.contains(key));
+            if (value.is_object()) {
+                expectTexture(gltf, extensions[name], key.c_str(), told);
+            } else {
+                EXPECT_EQ(asFloats(told[key]), asFloats(value));
+            }
+        }
+    }
+}
+
 void expectMaterial(const Json& gltf, const Json& from, const Json& told) {
     EXPECT_EQ(told["name"], from.value("name", ""));
     EXPECT_EQ(told["alphaMode"], from.value("alphaMode", "OPAQUE"));
@@ -105,7 +121,9 @@ void expectMaterial(const Json& gltf, const Json& from, const Json& told) {
     const bool ownTrim = extras.is_object() && extras.contains("trim");
     const bool mask = from.value("alphaMode", "") == "MASK" && pbr.contains("baseColorTexture");
     EXPECT_EQ(told.contains("trim"), ownTrim || mask);
-    EXPECT_EQ(told.size(), (ownTrim || mask ? 18u : 17u)) << "fields that are compared nowhere";
+    expectLayers(gltf, extensions, told.value("layers", Json::object()));
+    const size_t more = (ownTrim || mask ? 1u : 0u) + (told.contains("layers") ? 1u : 0u);
+    EXPECT_EQ(told.size(), 17u + more) << "fields that are compared nowhere";
 }
 
 class InspectMaterials : public supple::test::CommandTest {
