@@ -84,7 +84,7 @@ Status Attachments::addDecal(const DecalDesc& desc, const DecalLook& look) {
     entry.indices = std::move(*buffer);
     entry.decal = &decals_.emplace_back(std::move(*decal));
     const Decal& own = decals_.back();
-    const Status added = add(std::move(entry), own.points, own.tangents, verticesOf(own), look);
+    Status added = add(std::move(entry), own.points, own.tangents, verticesOf(own), look);
     if (!added)
         decals_.pop_back();
     return added;
@@ -112,7 +112,7 @@ Status Attachments::add(Entry entry, std::span<const SuppleSurfacePoint> points,
     desc.pointCount = static_cast<uint32_t>(points.size());
     desc.tangents = tangents.empty() ? nullptr : &tangents[0].x;
     desc.format = SUPPLE_POINT_FRAME_48;
-    if (const Status made =
+    if (Status made =
             context.check(suppleCreatePointSet(context.handle(), &desc, &entry.points), "suppleCreatePointSet");
         !made)
         return made;

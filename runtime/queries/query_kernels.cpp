@@ -49,7 +49,7 @@ Status QueryKernels::prepare() {
                       pick = batch.get(layout_, queries_pick_comp, {}, "supple queries, pick"),
                       finish = batch.get(layout_, queries_finish_comp, {}, "supple queries, hits"),
                       refine = batch.get(layout_, queries_refine_comp, {}, "supple queries, refine");
-    if (const Status made = batch.make(); !made) {
+    if (Status made = batch.make(); !made) {
         return made;
     }
     boxes_ = boxes;

@@ -14,6 +14,7 @@ public:
     explicit Direct(const TessellationDesc& desc) : FixedRate(desc) {}
     [[nodiscard]] Status begin();
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_DIRECT; }
+    // NOLINTNEXTLINE(bugprone-parent-virtual-call): there are no vertices to bind
     [[nodiscard]] BoundBytes boundBytes() const override { return Tessellation::boundBytes(); }
     [[nodiscard]] Status cutDraws(InstanceWindows& windows, bool byWindows) override;
     [[nodiscard]] Status createSets(const SurfaceInput& input, const InstanceListing& listing,
@@ -44,7 +45,7 @@ private:
 };
 
 Status Direct::begin() {
-    if (const Status begun = FixedRate::begin(); !begun) {
+    if (Status begun = FixedRate::begin(); !begun) {
         return begun;
     }
     Result<surface::DirectTables> direct = makeTables();
@@ -117,6 +118,7 @@ void Direct::setRanges() {
 }
 
 Status Direct::cutDraws(InstanceWindows& windows, bool byWindows) {
+    // NOLINTNEXTLINE(bugprone-parent-virtual-call): nor to cut windows by
     const Status cut = Tessellation::cutDraws(windows, byWindows);
     drawWindows_ = windows.drawCount();
     return cut ? checkBinding(windows, tables().poolStride * gpu::kVec4Bytes, "coefficients") : cut;
