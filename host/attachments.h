@@ -49,7 +49,7 @@ public:
     [[nodiscard]] Status addDecal(const DecalDesc& desc, const DecalLook& look);
 
     [[nodiscard]] size_t count() const { return all_.size(); }
-    /// Of the decals: what they cover.
+    /// What the decals cover.
     [[nodiscard]] const std::deque<Decal>& decals() const { return decals_; }
 
     /// Behind the opaque surface. The frame's set is bound, set 1 is another one afterwards. `segments`: those of the

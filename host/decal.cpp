@@ -13,7 +13,7 @@ constexpr float kSteepest = 80.0f; ///< degrees: what is steeper is seen as a li
 constexpr int kHalvings = 6;       ///< that find the border between two nodes
 /// Between its corners a patch may be off by this part of its size. Where it is off by more, there is a gap.
 constexpr float kGap = 0.6f;
-/// Of the depth: beyond it the picture fades out.
+/// The part of the depth beyond which the picture fades out.
 constexpr float kDepthFade = 0.75f;
 
 glm::vec3 vectorOf(const float (&v)[3]) {

@@ -33,8 +33,8 @@ struct DecalDesc {
 struct Decal {
     /// Corners, as numbers of points: counter-clockwise from outside. A triangle has the third one twice.
     using Patch = std::array<uint32_t, 4>;
-    /// Of a point: u and v, which begin at the upper left; how much of the picture is left, 0 to 1; and how far patches
-    /// at the point may lie below the surface, as they are flat.
+    /// What a point of the picture has: u and v, which begin at the upper left; how much of the picture is left, 0 to
+    /// 1; and how far patches at the point may lie below the surface, as they are flat.
     struct Place {
         float u = 0.0f, v = 0.0f, opacity = 0.0f, sag = 0.0f;
     };

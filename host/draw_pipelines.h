@@ -51,7 +51,7 @@ public:
     /// They are prepared.
     [[nodiscard]] VkPipeline operator[](const Faces& faces) const { return faces_.at(faces); }
 
-    /// Of what sits on the surface; made when first asked for.
+    /// The pipelines of what sits on the surface. They are made when first asked for.
     [[nodiscard]] Result<const AttachmentPipelines*> attachments();
 
     VkPipeline surfaceShadow = VK_NULL_HANDLE; ///< without holes

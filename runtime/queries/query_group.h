@@ -71,7 +71,7 @@ public:
         uint32_t firstTriangle = 0; ///< hits of triangles, among the rays
         uint32_t rate = 1;          ///< of the group's grids and meshes
     };
-    /// Of the frame that is recorded.
+    /// How many lanes look at pieces in the frame that is recorded.
     [[nodiscard]] uint32_t lanes() const;
     void recordBoxes(gpu::Dispatches& dispatches, const Batch& batch) const;
     void recordPick(gpu::Dispatches& dispatches, const Batch& batch, uint32_t work) const;

@@ -57,7 +57,7 @@ protected:
     [[nodiscard]] Status checkRayIndices(uint64_t count) const;
     void setRayRanges(const surface::IndexedMesh& mesh);
     void bindOutput(const SurfaceSets::Which& which, SetContents& contents) const override;
-    /// Of that what attributes write.
+    /// The part of it that attributes write.
     void bindStatics(const SurfaceSets::Which& which, SetContents& contents) const;
     /// Attributes are the same for all instances: a window of one.
     virtual void recordAttributeSteps(gpu::Dispatches& dispatches) const;

@@ -352,7 +352,7 @@ private:
 #endif
     }
 
-    /// Of two groups, one of them in a view.
+    /// A pool has two groups, one of them in a view.
     void createQueries() {
 #if defined(SUPPLE_WITH_CPU)
         const SuppleGroup groups[] = {groups_[0], groups_[kGroups - 1]};

@@ -27,7 +27,7 @@ struct WatchedByHost {
         const glm::vec3 eye(0.0f, 1.0f, away), to(0.0f, 1.0f, looksAway ? 2.0f * away : 0.0f);
         view.look(eye, to, glm::perspectiveRH_ZO(0.9f, 1.0f, 0.1f, 500.0f));
     }
-    /// Of the last frame.
+    /// What the view counted in the last frame.
     [[nodiscard]] SuppleViewStatistics statistics() {
         group->crowd.context().beginFrame();
         group->crowd.context().beginFrame();

@@ -83,7 +83,7 @@ TEST(Precise, CoversEveryOperationOnTheWayToAPosition) {
     }
 }
 
-// Of what hosts compile (shaders/supple_patch.glsl), as of kernels.
+// What hosts compile (shaders/supple_patch.glsl) keeps its sums as kernels do.
 TEST(Precise, CoversPositionsThatHostsEvaluate) {
     constexpr const char* kShader = SUPPLE_SOURCE_DIR "/tests/runtime/shaders/direct.comp";
     for (const std::string form : {"", " -DSUPPLE_PATCH_TEXELS"}) {

@@ -197,7 +197,7 @@ void compare(const Truth& truth, const runtime::CpuPose& pose, size_t k, const S
     }
 }
 
-/// Of rays a third of which graze the surface.
+/// The share of rays that may be wrong, where a third of them graze the surface.
 constexpr double kMostWrong = 0.004;
 
 void print(SuppleScheme scheme, SuppleMapping mapping, Figures& own) {

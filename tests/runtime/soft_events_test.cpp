@@ -279,7 +279,7 @@ struct WatchedGroup {
         view.look(eye, to, glm::perspectiveRH_ZO(0.9f, 1.0f, 0.1f, 200.0f));
         group->frame(time);
     }
-    /// Of the last frame.
+    /// What the view counted in the last frame.
     [[nodiscard]] SuppleViewStatistics statistics() {
         group->crowd.context().beginFrame();
         group->crowd.context().beginFrame();

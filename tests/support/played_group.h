@@ -59,7 +59,7 @@ public:
         return glm::dmat4(glm::make_mat4(m));
     }
     [[nodiscard]] glm::dvec3 placeOf(uint32_t i, uint32_t joint) const { return glm::dvec3(jointOf(i, joint)[3]); }
-    /// Of the box that holds the cage at rest.
+    /// The size of the box that holds the cage at rest.
     [[nodiscard]] glm::vec3 sizeAtRest() const {
         const cage::Cage& cage = character().cage;
         glm::vec3 low(cage.positions[0]), high(low);

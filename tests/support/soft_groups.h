@@ -32,7 +32,7 @@ public:
         return {begin, begin + static_cast<ptrdiff_t>(4 * size_t{character().cage.vertexCount()})};
     }
 
-    /// Of the box that holds the cage at rest.
+    /// The longest side of the box that holds the cage at rest.
     [[nodiscard]] float longestSide() const {
         const glm::vec3 size = sizeAtRest();
         return std::max({size.x, size.y, size.z});
