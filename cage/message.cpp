@@ -1,6 +1,6 @@
 #include "cage/message.h"
 
-#include "cage/utf8.h"
+#include "base/utf8.h"
 
 #include <algorithm>
 #include <cctype>

@@ -4,9 +4,11 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <algorithm>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_vulkan.h>
 #include <imgui.h>
+#include <iterator>
 
 namespace supple::host {
 
@@ -122,15 +124,16 @@ Status Overlay::startImGui() {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // leaves no file behind
-    float scale = 1.0f;
-    glfwGetWindowContentScale(window_.handle(), &scale, nullptr);
-    applyStyle(scale);
-    ImFontConfig font;
-    font.SizePixels = 13.0f * scale;
-    ImGui::GetIO().Fonts->AddFontDefault(&font);
+    glfwGetWindowContentScale(window_.handle(), &scale_, nullptr);
+    applyStyle(scale_);
+    buildFonts();
     if (!ImGui_ImplGlfw_InitForVulkan(window_.handle(), true))
         return Error{ErrorCode::unsupported, "ImGui does not take the window"};
     platformReady_ = true;
+    return startRenderer();
+}
+
+Status Overlay::startRenderer() {
     ImGui_ImplVulkan_InitInfo info{};
     info.Instance = device_.instance();
     info.PhysicalDevice = device_.physicalDevice();
@@ -149,6 +152,50 @@ Status Overlay::startImGui() {
         device_.submitAndWait([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
     ImGui_ImplVulkan_DestroyFontUploadObjects();
     return status;
+}
+
+void Overlay::buildFonts() {
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
+    ImFontConfig config;
+    config.SizePixels = 13.0f * scale_;
+    atlas.AddFontDefault(&config);
+    fontRanges_.clear();
+    for (FallbackFont& font : fonts_) {
+        std::vector<ImWchar>& ranges = fontRanges_.emplace_back();
+        for (const char32_t character : font.characters)
+            ranges.insert(ranges.end(), 2, static_cast<ImWchar>(character));
+        ranges.push_back(0);
+        ImFontConfig merged;
+        merged.MergeMode = true;
+        merged.GlyphOffset.y = scale_; // on the line of the built-in font
+        merged.FontNo = font.file.index;
+        merged.FontDataOwnedByAtlas = false;
+        atlas.AddFontFromMemoryTTF(font.bytes.data(), static_cast<int>(font.bytes.size()), 14.0f * scale_, &merged,
+                                   ranges.data());
+    }
+    atlas.Build();
+}
+
+Status Overlay::showText(std::string_view text) {
+    std::u32string asked = charactersBeyondAscii(text);
+    std::erase_if(asked, [](char32_t character) { return character > IM_UNICODE_CODEPOINT_MAX; });
+    if (std::includes(characters_.begin(), characters_.end(), asked.begin(), asked.end()))
+        return success();
+    std::u32string all;
+    std::set_union(characters_.begin(), characters_.end(), asked.begin(), asked.end(), std::back_inserter(all));
+    characters_ = std::move(all);
+    std::vector<FallbackFont> fonts = fallbackFonts(characters_);
+    if (fonts.empty())
+        return success();
+    vkDeviceWaitIdle(device_.handle());
+    ImGui_ImplVulkan_Shutdown();
+    rendererReady_ = false;
+    fonts_ = std::move(fonts);
+    buildFonts();
+    if (const VkResult result = vkResetDescriptorPool(device_.handle(), pool_, 0); result != VK_SUCCESS)
+        return vulkanError(result, "vkResetDescriptorPool");
+    return startRenderer();
 }
 
 void Overlay::destroyFramebuffers() {

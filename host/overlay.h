@@ -1,9 +1,13 @@
 // Dear ImGui over the window's picture.
 #pragma once
 
+#include "host/fallback_fonts.h"
 #include "host/window.h"
 
+#include <imgui.h>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace supple::host {
@@ -15,6 +19,9 @@ public:
     Overlay(const Overlay&) = delete;
     Overlay& operator=(const Overlay&) = delete;
 
+    /// Panels may show this UTF-8 text from now on: loads fonts of the system for characters that were not shown
+    /// before. Text that was shown before costs a look at each character. Not between beginPanels() and record().
+    [[nodiscard]] Status showText(std::string_view text);
     /// Between these two the caller builds its panels with ImGui.
     void beginPanels();
     void endPanels();
@@ -26,6 +33,8 @@ private:
     [[nodiscard]] Status createRenderPass();
     [[nodiscard]] Status createFramebuffers();
     [[nodiscard]] Status startImGui();
+    [[nodiscard]] Status startRenderer();
+    void buildFonts();
     void destroyFramebuffers();
 
     Device& device_;
@@ -33,7 +42,11 @@ private:
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkRenderPass renderPass_ = VK_NULL_HANDLE;
     std::vector<VkFramebuffer> framebuffers_;
-    uint32_t generation_ = 0; ///< of the swapchain the framebuffers belong to
+    float scale_ = 1.0f;        ///< of the display
+    std::u32string characters_; ///< beyond ASCII that were asked for, rising
+    std::vector<FallbackFont> fonts_;
+    std::vector<std::vector<ImWchar>> fontRanges_; ///< of each of them
+    uint32_t generation_ = 0;                      ///< of the swapchain the framebuffers belong to
     bool platformReady_ = false;
     bool rendererReady_ = false;
 };

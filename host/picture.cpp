@@ -9,17 +9,6 @@
 #include <cstring>
 #include <fstream>
 
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#pragma GCC diagnostic ignored "-Wsign-compare"
-#endif
-#include <stb/stb_easy_font.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
-
 namespace supple::host {
 
 Picture Picture::blank(uint32_t width, uint32_t height) {
@@ -36,30 +25,6 @@ void Picture::paste(const Picture& other, uint32_t x, uint32_t y) {
     const uint32_t rows = std::min(other.height, height - y);
     for (uint32_t row = 0; row < rows; ++row)
         std::memcpy(pixel(x, y + row), other.pixel(0, row), size_t{columns} * 4);
-}
-
-void Picture::drawText(uint32_t x, uint32_t y, const std::string& text, uint32_t scale, const uint8_t (&color)[3]) {
-    struct FontVertex {
-        float x, y, z;
-        uint8_t color[4];
-    };
-    std::string copy = text;
-    std::vector<FontVertex> vertices(copy.size() * 68 +
-                                     4); // stb: about 270 bytes a letter, at most 4 vertices a stroke
-    const int quads = stb_easy_font_print(0.0f, 0.0f, copy.data(), nullptr, vertices.data(),
-                                          static_cast<int>(vertices.size() * sizeof(FontVertex)));
-    for (int quad = 0; quad < quads; ++quad) {
-        const FontVertex& low = vertices[static_cast<size_t>(quad) * 4];
-        const FontVertex& high = vertices[static_cast<size_t>(quad) * 4 + 2];
-        const auto left = x + static_cast<uint32_t>(low.x) * scale;
-        const auto top = y + static_cast<uint32_t>(low.y) * scale;
-        const auto right = std::min(width, x + static_cast<uint32_t>(high.x) * scale);
-        const auto bottom = std::min(height, y + static_cast<uint32_t>(high.y) * scale);
-        for (uint32_t row = top; row < bottom; ++row) {
-            for (uint32_t column = left; column < right; ++column)
-                std::memcpy(pixel(column, row), color, 3);
-        }
-    }
 }
 
 PictureAverage::PictureAverage(uint32_t width, uint32_t height)

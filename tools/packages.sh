@@ -8,7 +8,7 @@ supple_packages=(
     glslang-tools spirv-tools
     libglm-dev nlohmann-json3-dev libmeshoptimizer-dev libdraco-dev libstb-dev libpng-dev libjpeg62-turbo-dev libcli11-dev
     libnanoflann-dev libxxhash-dev
-    libglfw3-dev libimgui-dev libsdl2-dev libwebp-dev libzstd-dev
+    libglfw3-dev libimgui-dev libsdl2-dev libwebp-dev libzstd-dev libfontconfig-dev
 )
 # To test as well.
 supple_test_packages=(
@@ -20,7 +20,7 @@ supple_test_packages=(
     abigail-tools pkg-config spirv-cross
     doxygen python3
     clang libc++-dev libc++abi-dev
-    blender python3-numpy chromium
+    blender python3-numpy chromium fonts-dejavu-core
 )
 # To build for Windows, and to run that here.
 supple_windows_packages=(

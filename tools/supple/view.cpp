@@ -250,6 +250,8 @@ Status Viewer::run() {
         stage_->advance(secondsSinceLast());
         panel_->keys = window_->takeKeys();
         panel_->exported = export_.report();
+        if (const Status status = overlay_->showText(panelText(*panel_, *stage_)); !status)
+            return status.error();
         overlay_->beginPanels();
         const PanelWishes wishes = buildPanel(*panel_, *stage_, aspect());
         overlay_->endPanels();
@@ -458,6 +460,8 @@ Status Viewer::announce(const std::string& what) {
     if (const Status status = context_->check(suppleBeginFrame(context_->handle(), number, window_->completedFrame()),
                                               "suppleBeginFrame");
         !status)
+        return status.error();
+    if (const Status status = overlay_->showText(what); !status)
         return status.error();
     overlay_->beginPanels();
     drawAnnouncement(what);

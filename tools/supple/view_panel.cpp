@@ -636,6 +636,35 @@ void buildMessage(PanelState& state) {
 
 } // namespace
 
+std::string panelText(const PanelState& state, const ViewStage& stage) {
+    const Folder& folder = state.browser.folder();
+    std::string text = utf8Text(folder.path) + folder.fault + state.message + state.exported;
+    const auto add = [&](const std::vector<std::string>& names) {
+        for (const std::string& name : names)
+            text += name;
+    };
+    for (const PanelFile& file : state.files)
+        text += file.path;
+    add(folder.folders);
+    add(folder.files);
+    add(state.recent);
+    if (!stage.hasFigure())
+        return text;
+    const host::Figure& figure = stage.figure();
+    for (const host::Figure::Clip& clip : figure.clips())
+        text += clip.name;
+    for (const host::Figure::MorphTarget& morph : figure.morphTargets())
+        text += morph.name;
+    for (const SupplePartInfo& part : figure.parts()) {
+        for (const uint32_t material : std::span(part.materials, part.materialCount))
+            text += figure.materials().of(material).name;
+    }
+    add(figure.partNames());
+    add(figure.jointNames());
+    add(stage.warnings());
+    return text;
+}
+
 PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect) {
     PanelWishes wishes;
     if (stage.settings.panel) {

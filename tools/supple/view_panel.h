@@ -52,6 +52,9 @@ struct PanelWishes {
 /// Pixels from the left that the panel takes, when it is shown.
 inline constexpr float kPanelRight = 332.0f;
 
+/// The names and messages that the panel may show: what is not its own text.
+[[nodiscard]] std::string panelText(const PanelState& state, const ViewStage& stage);
+
 /// Builds the panel and moves the camera; changes the stage's settings in place.
 [[nodiscard]] PanelWishes buildPanel(PanelState& state, ViewStage& stage, float aspect);
 

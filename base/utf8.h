@@ -1,8 +1,19 @@
-#include "cage/utf8.h"
+// UTF-8 as Unicode defines it: no surrogates, nothing longer than need be.
+#pragma once
 
-namespace supple::cage {
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
 
-CodePoint firstCodePoint(std::string_view text) {
+namespace supple {
+
+struct CodePoint {
+    uint32_t code;
+    size_t bytes;
+};
+
+/// `text` is not empty. 0xFFFD and one byte for what is no UTF-8.
+[[nodiscard]] constexpr CodePoint firstCodePoint(std::string_view text) {
     constexpr CodePoint kNone{0xFFFD, 1};
     const auto at = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char first = at(0);
@@ -25,7 +36,7 @@ CodePoint firstCodePoint(std::string_view text) {
     return code < kSmallest[bytes] || surrogate || code > 0x10FFFF ? kNone : CodePoint{code, bytes};
 }
 
-bool isUtf8(std::string_view text) {
+[[nodiscard]] constexpr bool isUtf8(std::string_view text) {
     while (!text.empty()) {
         const CodePoint first = firstCodePoint(text);
         if (first.code == 0xFFFD && first.bytes == 1) {
@@ -36,4 +47,4 @@ bool isUtf8(std::string_view text) {
     return true;
 }
 
-} // namespace supple::cage
+} // namespace supple
