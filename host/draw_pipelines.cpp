@@ -97,14 +97,8 @@ Status DrawPipelines::createLayouts() {
         texture(shared::kOcclusion),
         texture(shared::kEmissive),
         texture(shared::kTrim),
-        texture(shared::kClearcoat),
-        texture(shared::kClearcoatRoughness),
-        texture(shared::kClearcoatNormal),
-        texture(shared::kSheenColor),
-        texture(shared::kSheenRoughness),
-        texture(shared::kTransmission),
-        texture(shared::kAnisotropy),
-        texture(shared::kDiffuseTransmissionColor),
+        {shared::kLayerTextureBinding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment,
+         shared::kLayerTextureCount},
     };
     for (const Status& status :
          {keep(createSetLayout(device_, frame), frameSet), keep(createSetLayout(device_, figure), figureSet),
@@ -166,7 +160,8 @@ Status DrawPipelines::prepare(const Faces& faces) {
         return success();
     GraphicsDesc desc{.layout = layout,
                       .constants = {faces.vertexLit ? 1u : 0u, faces.maps ? 1u : 0u, faces.view, faces.material,
-                                    faces.blend == Blend::multiply ? 1u : 0u}};
+                                    faces.blend == Blend::multiply ? 1u : 0u, faces.layerSlots[0],
+                                    faces.layerSlots[1]}};
     if (faces.shadow) {
         desc.name = faces.cage ? "cage shadow, trimmed" : "surface shadow, trimmed";
         desc.vertexShader = faces.cage ? std::span<const uint32_t>(cage_shadow_trim_vert) : surface_shadow_trim_vert;

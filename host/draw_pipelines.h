@@ -3,6 +3,7 @@
 
 #include "host/attachments.h"
 #include "host/device.h"
+#include "host/material_uniforms.h"
 #include "host/pipelines.h"
 
 #include <compare>
@@ -36,9 +37,10 @@ public:
 
     /// What faces are drawn with: there is a pipeline for each of these.
     struct Faces {
-        bool cage = false;         ///< of the cage instead of the surface
-        bool shadow = false;       ///< the shadow of what has holes, and nothing else
-        uint32_t material = 0;     ///< what it has: shared::kMaterial...
+        bool cage = false;     ///< of the cage instead of the surface
+        bool shadow = false;   ///< the shadow of what has holes, and nothing else
+        uint32_t material = 0; ///< what it has: shared::kMaterial...
+        LayerSlots layerSlots{shared::kNoLayerSlots, shared::kNoLayerSlots};
         uint32_t view = 0;         ///< shared::kView...; 0 of a shadow
         bool vertexLit = false;    ///< the light is looked up once a vertex; only of the surface
         bool maps = false;         ///< the material has normal, occlusion or emissive maps

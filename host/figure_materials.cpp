@@ -47,6 +47,22 @@ SuppleMaterialInfo whiteClay() {
     return info;
 }
 
+/// A material may have more textures of layers than shaders look up.
+void leaveOutTooMany(const std::string& path, SuppleMaterialInfo& info, SuppleMaterialLayers& layers) {
+    const LayerSlots slots = layerSlots(info, layers);
+    const auto textures = texturesOf(info, layers);
+    uint32_t left = 0;
+    for (uint32_t which = shared::kClearcoat; which < textures.size(); ++which) {
+        if (textures[which]->image == SUPPLE_NO_IMAGE || layerSlotOf(slots, which) != shared::kNoLayerSlot)
+            continue;
+        textures[which]->image = SUPPLE_NO_IMAGE;
+        ++left;
+    }
+    if (left > 0)
+        std::fprintf(stderr, "warning: %s: material %s: %u textures of its layers left out: %u are drawn\n",
+                     path.c_str(), info.name, left, shared::kLayerTextureCount);
+}
+
 } // namespace
 
 Status FigureMaterials::load(Context& context, SuppleAsset asset, const std::string& path) {
@@ -96,7 +112,8 @@ Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const 
         const bool ownTrim = info.trimDomain != SUPPLE_TRIM_NONE && info.trimAlpha == 0;
         const auto kindOf = [&](uint32_t slot) {
             const bool isColor = slot == shared::kBaseColor || slot == shared::kEmissive ||
-                                 slot == shared::kSheenColor || slot == shared::kDiffuseTransmissionColor;
+                                 slot == shared::kSheenColor || slot == shared::kDiffuseTransmissionColor ||
+                                 slot == shared::kSpecularColor;
             return slot == shared::kTrim ? trimKind : (isColor ? TextureKind::color : TextureKind::data);
         };
         const auto textures = texturesOf(info, layers);
@@ -110,6 +127,7 @@ Status FigureMaterials::loadTextures(Context& context, SuppleAsset asset, const 
             if (*loaded == 0)
                 texture.image = SUPPLE_NO_IMAGE; // also one that cannot be read
         }
+        leaveOutTooMany(path, info, layers);
     }
     return success();
 }

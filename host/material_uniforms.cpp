@@ -20,17 +20,16 @@ bool hasOwnTrim(const SuppleMaterialInfo& material) {
     return material.trimDomain != SUPPLE_TRIM_NONE && material.trimAlpha == 0;
 }
 
-/// What a dielectric mirrors if it is looked at straight, and along its surface.
+/// See MaterialUniforms::dielectric; the limit is left to the shader, as a texture comes before it.
 glm::vec4 dielectricOf(const SuppleMaterialLayers& layers) {
     const float side = layers.ior > 0.0f ? (layers.ior - 1.0f) / (layers.ior + 1.0f) : 1.0f;
-    glm::vec4 mirrored(0.0f, 0.0f, 0.0f, layers.specularFactor);
-    for (int channel = 0; channel < 3; ++channel)
-        mirrored[channel] = std::min(side * side * layers.specularColorFactor[channel], 1.0f) * layers.specularFactor;
-    return mirrored;
+    const float* color = layers.specularColorFactor;
+    return {side * side * glm::vec3(color[0], color[1], color[2]), layers.specularFactor};
 }
 
 bool isUsualDielectric(const SuppleMaterialLayers& layers) {
-    return layers.ior == 1.5f && layers.specularFactor == 1.0f &&
+    return layers.specular.image == SUPPLE_NO_IMAGE && layers.specularColor.image == SUPPLE_NO_IMAGE &&
+           layers.ior == 1.5f && layers.specularFactor == 1.0f &&
            std::all_of(std::begin(layers.specularColorFactor), std::end(layers.specularColorFactor),
                        [](float channel) { return channel == 1.0f; });
 }
@@ -75,7 +74,8 @@ uint32_t materialFlags(const SuppleMaterialInfo& material, const SuppleMaterialL
     uint32_t hasTexture = shared::kMaterialTexture; // in the order of shared::kBaseColor and so on
     for (const SuppleTextureInfo* texture : texturesOf(material, layers)) {
         set(uv1 && texture->uvSet == 1, shared::kMaterialUvs1);
-        set(texture->image != SUPPLE_NO_IMAGE, hasTexture);
+        set(texture->image != SUPPLE_NO_IMAGE && hasTexture < shared::kMaterialTexture << shared::kClearcoat,
+            hasTexture);
         hasTexture <<= 1;
     }
     set(layers.clearcoatFactor > 0.0f, shared::kMaterialClearcoat);
@@ -84,7 +84,27 @@ uint32_t materialFlags(const SuppleMaterialInfo& material, const SuppleMaterialL
     set(!isUsualDielectric(layers), shared::kMaterialSpecular);
     set(layers.anisotropyStrength > 0.0f, shared::kMaterialAnisotropy);
     set(layers.diffuseTransmissionFactor > 0.0f, shared::kMaterialDiffuseTransmission);
+    set(layers.iridescenceFactor > 0.0f, shared::kMaterialIridescence);
     return flags;
+}
+
+LayerSlots layerSlots(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers) {
+    LayerSlots slots{shared::kNoLayerSlots, shared::kNoLayerSlots};
+    const auto textures = texturesOf(material, layers);
+    uint32_t next = 0;
+    for (uint32_t i = shared::kClearcoat; i < textures.size() && next < shared::kLayerTextureCount; ++i) {
+        if (textures[i]->image == SUPPLE_NO_IMAGE)
+            continue;
+        const uint32_t place = i - shared::kClearcoat;
+        const uint32_t shift = 4 * (place % shared::kLayerSlotsPerWord);
+        slots[place / shared::kLayerSlotsPerWord] ^= (shared::kNoLayerSlot ^ next++) << shift;
+    }
+    return slots;
+}
+
+uint32_t layerSlotOf(const LayerSlots& slots, uint32_t texture) {
+    const uint32_t place = texture - shared::kClearcoat;
+    return slots[place / shared::kLayerSlotsPerWord] >> (4 * (place % shared::kLayerSlotsPerWord)) & 15u;
 }
 
 shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers,
@@ -113,6 +133,8 @@ shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, co
     uniforms.extinction = extinctionOf(layers);
     uniforms.anisotropy = glm::vec4(layers.anisotropyStrength, std::cos(layers.anisotropyRotation),
                                     std::sin(layers.anisotropyRotation), 0.0f);
+    uniforms.iridescence = glm::vec4(layers.iridescenceFactor, layers.iridescenceIor,
+                                     layers.iridescenceThicknessMinimum, layers.iridescenceThicknessMaximum);
     const bool ownTrim = hasOwnTrim(material);
     uniforms.cutoff = ownTrim ? material.trimCutoff : material.alphaCutoff;
     uniforms.trimChannel = ownTrim ? material.trimChannel : 3;

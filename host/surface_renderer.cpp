@@ -379,7 +379,7 @@ Status SurfaceRenderer::allocateSets(FigureBinding& binding, const FigureGroup& 
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFigureBuffers * surfaceCount},
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, materialCount},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, shared::kTextureCount * materialCount}};
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, (shared::kClearcoat + shared::kLayerTextureCount) * materialCount}};
     auto poolInfo = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     poolInfo.maxSets = surfaceCount + materialCount;
     poolInfo.poolSizeCount = static_cast<uint32_t>(std::size(sizes));
@@ -444,12 +444,14 @@ Status SurfaceRenderer::writeMaterialSets(FigureBinding& binding, const Figure& 
     const FigureMaterials& materials = figure.materials();
     for (size_t i = 0; i < binding.materials_.size(); ++i) {
         const auto textures = texturesOf(materials.infos()[i], materials.layersAt(i));
-        for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot) {
-            if (const Status status = writeTexture(binding, i, shared::kFirstTextureBinding + slot,
-                                                   materials.texture(i, slot), *textures[slot]);
+        for (uint32_t which = 0; which < shared::kClearcoat; ++which) {
+            if (const Status status = writeTexture(binding, i, shared::kFirstTextureBinding + which, 0,
+                                                   materials.texture(i, which), *textures[which]);
                 !status)
                 return status.error();
         }
+        if (const Status status = writeLayerTextures(binding, i, materials); !status)
+            return status.error();
     }
     return success();
 }
@@ -477,8 +479,28 @@ Status SurfaceRenderer::writeMaterialUniforms(FigureBinding& binding, const Figu
     return success();
 }
 
-Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, uint32_t slot, const Image& image,
-                                     const SuppleTextureInfo& texture) const {
+Status SurfaceRenderer::writeLayerTextures(FigureBinding& binding, size_t material,
+                                           const FigureMaterials& materials) const {
+    const SuppleMaterialInfo& info = materials.infos()[material];
+    const SuppleMaterialLayers& layers = materials.layersAt(material);
+    const auto textures = texturesOf(info, layers);
+    const LayerSlots slots = layerSlots(info, layers);
+    std::array<uint32_t, shared::kLayerTextureCount> shown{}; // where nothing is looked up, something must be bound
+    for (uint32_t which = shared::kClearcoat; which < shared::kTextureCount; ++which) {
+        if (const uint32_t slot = layerSlotOf(slots, which); slot != shared::kNoLayerSlot)
+            shown[slot] = which;
+    }
+    for (uint32_t slot = 0; slot < shown.size(); ++slot) {
+        if (const Status status = writeTexture(binding, material, shared::kLayerTextureBinding, slot,
+                                               materials.texture(material, shown[slot]), *textures[shown[slot]]);
+            !status)
+            return status.error();
+    }
+    return success();
+}
+
+Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, uint32_t slot, uint32_t element,
+                                     const Image& image, const SuppleTextureInfo& texture) const {
     const VkSamplerCreateInfo info = samplerInfo(texture, device_);
     VkSampler sampler = VK_NULL_HANDLE;
     if (const VkResult result = vkCreateSampler(device_.handle(), &info, nullptr, &sampler); result != VK_SUCCESS)
@@ -487,6 +509,7 @@ Status SurfaceRenderer::writeTexture(FigureBinding& binding, size_t material, ui
     const VkDescriptorImageInfo described{sampler, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     VkWriteDescriptorSet write =
         descriptorWrite(binding.materials_[material], slot, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    write.dstArrayElement = element;
     write.pImageInfo = &described;
     vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
     return success();
@@ -500,10 +523,12 @@ Result<std::unique_ptr<Attachments>> SurfaceRenderer::createAttachments(const Fi
 
 DrawPipelines::Faces SurfaceRenderer::facesOf(const Scene& scene, const DrawRun& run, Blend blend) const {
     const bool isFlat = scene.view >= shared::kViewTangents;
-    const bool hasMaps = scene.group->figure().materials().hasMaps(run.material);
+    const FigureMaterials& materials = scene.group->figure().materials();
+    const bool hasMaps = materials.hasMaps(run.material);
     const uint32_t edgeRate = scene.group->surfaces()[run.surface].edgeRate;
     return {.cage = scene.cageFaces,
             .material = flagsOf(scene, run.material),
+            .layerSlots = layerSlots(materials.of(run.material), materials.layersOf(run.material)),
             .view = scene.view,
             .vertexLit =
                 !scene.cageFaces && !isFlat && device_.isCpu() && rays_ == nullptr && edgeRate >= kVertexLitRate,

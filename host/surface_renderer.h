@@ -109,8 +109,10 @@ private:
     void writeFigureSet(VkDescriptorSet set, const FigureGroup& group, const FigureSurface& surface) const;
     [[nodiscard]] Status writeMaterialSets(FigureBinding& binding, const Figure& figure) const;
     [[nodiscard]] Status writeMaterialUniforms(FigureBinding& binding, const Figure& figure) const;
-    [[nodiscard]] Status writeTexture(FigureBinding& binding, size_t material, uint32_t slot, const Image& image,
-                                      const SuppleTextureInfo& texture) const;
+    [[nodiscard]] Status writeLayerTextures(FigureBinding& binding, size_t material,
+                                            const FigureMaterials& materials) const;
+    [[nodiscard]] Status writeTexture(FigureBinding& binding, size_t material, uint32_t slot, uint32_t element,
+                                      const Image& image, const SuppleTextureInfo& texture) const;
     void writeUniforms(const Slot& slot, VkExtent2D extent, const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene) const;
     /// A part of the picture with a scene of its own.

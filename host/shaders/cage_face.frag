@@ -29,7 +29,7 @@ void main() {
         mapped = mappedNormalHere(front, inPosition, uv, normalTexelAt(uv));
     }
     vec3 coat = front;
-    if (shaded && materialHas(kMaterialClearcoat) && hasTexture(kClearcoatNormal)) {
+    if (shaded && materialHas(kMaterialClearcoat) && kClearcoatNormalSlot != kNoLayerSlot) {
         vec2 uv = placed(kClearcoatNormal, inUvs);
         coat = mappedNormalHere(front, inPosition, uv, clearcoatTexelAt(uv));
     }

@@ -38,9 +38,11 @@ SUPPLE_HOST_CONST kSurfaceTangentBinding = 9u;
 SUPPLE_HOST_CONST kSurfaceValueBinding = 10u;
 SUPPLE_HOST_CONST kLevelBucketBinding = 11u; // groups with levels
 SUPPLE_HOST_CONST kLevelPatchBinding = 12u;
-// Set 2, the material: its numbers, and behind them a texture for each of MaterialUniforms::places.
+// Set 2, the material: its numbers, then a binding for each texture below kClearcoat, then one for all of its layers'.
 SUPPLE_HOST_CONST kMaterialBinding = 0u;
 SUPPLE_HOST_CONST kFirstTextureBinding = 1u;
+SUPPLE_HOST_CONST kLayerTextureBinding = 7u;
+SUPPLE_HOST_CONST kLayerTextureCount = 8u; // with six above and two of the frame 16, which Vulkan promises
 
 // Set 1 of what sits on the figure (host/attachments.h).
 SUPPLE_HOST_CONST kAttachmentFrameBinding = 0u; // SUPPLE_POINT_FRAME_48
@@ -56,7 +58,7 @@ SUPPLE_HOST_CONST kNormal = 2u;
 SUPPLE_HOST_CONST kOcclusion = 3u;
 SUPPLE_HOST_CONST kEmissive = 4u;
 SUPPLE_HOST_CONST kTrim = 5u;
-// Those of its layers (layers.glsl).
+// Those of its layers (layers.glsl). Few materials have many of them, so they share kLayerTextureBinding.
 SUPPLE_HOST_CONST kClearcoat = 6u;
 SUPPLE_HOST_CONST kClearcoatRoughness = 7u;
 SUPPLE_HOST_CONST kClearcoatNormal = 8u;
@@ -65,7 +67,17 @@ SUPPLE_HOST_CONST kSheenRoughness = 10u;
 SUPPLE_HOST_CONST kTransmission = 11u;
 SUPPLE_HOST_CONST kAnisotropy = 12u;
 SUPPLE_HOST_CONST kDiffuseTransmissionColor = 13u;
-SUPPLE_HOST_CONST kTextureCount = 14u; // with two of the frame 16, which Vulkan promises
+SUPPLE_HOST_CONST kSpecular = 14u;
+SUPPLE_HOST_CONST kSpecularColor = 15u;
+SUPPLE_HOST_CONST kIridescence = 16u;
+SUPPLE_HOST_CONST kIridescenceThickness = 17u;
+SUPPLE_HOST_CONST kDiffuseTransmission = 18u;
+SUPPLE_HOST_CONST kThickness = 19u;
+SUPPLE_HOST_CONST kTextureCount = 20u;
+// Where each of them is in the array of kLayerTextureBinding: four bits from kClearcoat on, in two words.
+SUPPLE_HOST_CONST kLayerSlotsPerWord = 8u;
+SUPPLE_HOST_CONST kNoLayerSlot = 8u; // it has none
+SUPPLE_HOST_CONST kNoLayerSlots = 0x88888888u;
 
 // The map of the studio (host/environment.h).
 SUPPLE_HOST_CONST kEnvironmentSize = 256u;
@@ -151,13 +163,14 @@ SUPPLE_HOST_CONST kMaterialTrim = 16u;       // surface: where the trim's textur
 SUPPLE_HOST_CONST kMaterialTrimFace = 32u;   // it is a strip of tiles, one a face
 SUPPLE_HOST_CONST kMaterialTrimAlpha = 64u;  // base color and vertex alpha multiply it
 SUPPLE_HOST_CONST kMaterialUvs1 = 128u;      // a texture lies on the second texture coordinates
-SUPPLE_HOST_CONST kMaterialTexture = 256u;   // << kBaseColor: the texture of that place; and so on
+SUPPLE_HOST_CONST kMaterialTexture = 256u;   // << kBaseColor and so on, below kClearcoat: that texture
 SUPPLE_HOST_CONST kMaterialClearcoat = 1u << 22;
 SUPPLE_HOST_CONST kMaterialSheen = 1u << 23;
 SUPPLE_HOST_CONST kMaterialTransmission = 1u << 24;
 SUPPLE_HOST_CONST kMaterialSpecular = 1u << 25; // MaterialUniforms::dielectric differs from what it usually is
 SUPPLE_HOST_CONST kMaterialAnisotropy = 1u << 26;
 SUPPLE_HOST_CONST kMaterialDiffuseTransmission = 1u << 27;
+SUPPLE_HOST_CONST kMaterialIridescence = 1u << 28;
 
 // A patch in kPatchBinding: its class, then the vertices of its face, which say whether the pose mirrors it:
 // CageCorner::faceStart and faceSides.
@@ -234,12 +247,13 @@ struct TexturePlace {
 
 struct MaterialUniforms {
     vec4 baseColor;
-    vec4 emissive;            // with its strength
-    vec4 sheen;               // w: its roughness
-    vec4 dielectric;          // what it mirrors if it is looked at straight; w: and along the surface
+    vec4 emissive;   // with its strength
+    vec4 sheen;      // w: its roughness
+    vec4 dielectric; // what it mirrors if it is looked at straight, at most 1; w: a factor of all that it mirrors
     vec4 diffuseTransmission; // its color; w: its share of scattered light
-    vec4 extinction; // inside: what is left after a length x is exp(-x * extinction); w: thickness, 0: a thin wall
-    vec4 anisotropy; // x: its strength; y, z: cosine and sine of its rotation
+    vec4 extinction;  // inside: what is left after a length x is exp(-x * extinction); w: thickness, 0: a thin wall
+    vec4 anisotropy;  // x: its strength; y, z: cosine and sine of its rotation
+    vec4 iridescence; // x: its factor; y: the film's index; z, w: its thickness in nanometres, least and most
     TexturePlace places[kTextureCount];
     float metallic;
     float roughness;

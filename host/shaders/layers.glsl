@@ -1,14 +1,29 @@
 // What glTF's extensions lay over a material, and what goes through it: clearcoat, sheen, transmission as of thin glass, light
 // that is scattered through, what a dielectric mirrors, and highlights that are stretched. See material.glsl and studio.glsl.
 
-layout(set = 2, binding = kFirstTextureBinding + kClearcoat) uniform sampler2D clearcoatTexture;
-layout(set = 2, binding = kFirstTextureBinding + kClearcoatRoughness) uniform sampler2D clearcoatRoughnessTexture;
-layout(set = 2, binding = kFirstTextureBinding + kClearcoatNormal) uniform sampler2D clearcoatNormalTexture;
-layout(set = 2, binding = kFirstTextureBinding + kSheenColor) uniform sampler2D sheenColorTexture;
-layout(set = 2, binding = kFirstTextureBinding + kSheenRoughness) uniform sampler2D sheenRoughnessTexture;
-layout(set = 2, binding = kFirstTextureBinding + kTransmission) uniform sampler2D transmissionTexture;
-layout(set = 2, binding = kFirstTextureBinding + kAnisotropy) uniform sampler2D anisotropyTexture;
-layout(set = 2, binding = kFirstTextureBinding + kDiffuseTransmissionColor) uniform sampler2D diffuseTransmissionColorTexture;
+layout(set = 2, binding = kLayerTextureBinding) uniform sampler2D layerTextures[kLayerTextureCount];
+
+// Where each of a layer's textures is in the array: constants, so that no device has to index it by what it computes.
+layout(constant_id = 5) const uint kLayerSlots0 = kNoLayerSlots;
+layout(constant_id = 6) const uint kLayerSlots1 = kNoLayerSlots;
+const uint kClearcoatSlot = kLayerSlots0 & 15u;
+const uint kClearcoatRoughnessSlot = (kLayerSlots0 >> 4u) & 15u;
+const uint kClearcoatNormalSlot = (kLayerSlots0 >> 8u) & 15u;
+const uint kSheenColorSlot = (kLayerSlots0 >> 12u) & 15u;
+const uint kSheenRoughnessSlot = (kLayerSlots0 >> 16u) & 15u;
+const uint kTransmissionSlot = (kLayerSlots0 >> 20u) & 15u;
+const uint kAnisotropySlot = (kLayerSlots0 >> 24u) & 15u;
+const uint kDiffuseTransmissionColorSlot = (kLayerSlots0 >> 28u) & 15u;
+const uint kSpecularSlot = kLayerSlots1 & 15u;
+const uint kSpecularColorSlot = (kLayerSlots1 >> 4u) & 15u;
+const uint kIridescenceSlot = (kLayerSlots1 >> 8u) & 15u;
+const uint kIridescenceThicknessSlot = (kLayerSlots1 >> 12u) & 15u;
+const uint kDiffuseTransmissionSlot = (kLayerSlots1 >> 16u) & 15u;
+const uint kThicknessSlot = (kLayerSlots1 >> 20u) & 15u;
+
+/// A texel, or white where the material has no such texture. It may stand in a branch: which one is taken is a constant.
+#define LAYER_TEXEL(name, uvs)                                                                                         \
+    (name##Slot == kNoLayerSlot ? vec4(1.0) : texture(layerTextures[name##Slot & (kNoLayerSlot - 1u)], placed(name, uvs)))
 
 // Glass is drawn twice: what is behind it is multiplied by a color, then what it sends itself is added.
 layout(constant_id = 4) const bool kThrough = false;
@@ -22,6 +37,10 @@ struct Layers {
     float transmission;
     vec3 dielectric; // what it mirrors if it is looked at straight
     float grazing;   // and along the surface
+    float film;      // how much a thin film colors that
+    float filmThickness; // in nanometres
+    float scattersThrough; // the share of scattered light that comes through
+    float thickness; // of what lies behind the surface
     vec3 stretch;    // which way highlights are stretched, of a tangent, a bitangent; z: how much
     vec3 inside;     // the color of light that has gone through
 };
@@ -39,52 +58,49 @@ struct Place {
 
 bool isLayered() {
     return materialHas(kMaterialClearcoat | kMaterialSheen | kMaterialTransmission | kMaterialSpecular |
-                       kMaterialAnisotropy | kMaterialDiffuseTransmission);
+                       kMaterialAnisotropy | kMaterialDiffuseTransmission | kMaterialIridescence);
 }
 
 /// The share of light that goes through, before anything is mirrored.
 float transmissionAt(vec4 uvs) {
     if (!materialHas(kMaterialTransmission))
         return 0.0;
-    return materialData.transmission * (hasTexture(kTransmission) ? texture(transmissionTexture, placed(kTransmission, uvs)).r : 1.0);
+    return materialData.transmission * LAYER_TEXEL(kTransmission, uvs).r;
 }
 
 Layers layersAt(vec4 uvs) {
-    Layers layers = Layers(0.0, 0.0, vec3(0.0), 0.0, transmissionAt(uvs), vec3(0.04), 1.0, vec3(0.0), vec3(0.0));
+    Layers layers = Layers(0.0, 0.0, vec3(0.0), 0.0, transmissionAt(uvs), vec3(0.04), 1.0, 0.0, 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0));
     if (materialHas(kMaterialClearcoat)) {
-        layers.coat = materialData.clearcoat;
-        layers.coatRoughness = materialData.clearcoatRoughness;
-        if (hasTexture(kClearcoat))
-            layers.coat *= texture(clearcoatTexture, placed(kClearcoat, uvs)).r;
-        if (hasTexture(kClearcoatRoughness))
-            layers.coatRoughness *= texture(clearcoatRoughnessTexture, placed(kClearcoatRoughness, uvs)).g;
+        layers.coat = materialData.clearcoat * LAYER_TEXEL(kClearcoat, uvs).r;
+        layers.coatRoughness = materialData.clearcoatRoughness * LAYER_TEXEL(kClearcoatRoughness, uvs).g;
     }
     if (materialHas(kMaterialSheen)) {
-        layers.sheen = materialData.sheen.rgb;
-        layers.sheenRoughness = materialData.sheen.a;
-        if (hasTexture(kSheenColor))
-            layers.sheen *= texture(sheenColorTexture, placed(kSheenColor, uvs)).rgb;
-        if (hasTexture(kSheenRoughness))
-            layers.sheenRoughness *= texture(sheenRoughnessTexture, placed(kSheenRoughness, uvs)).a;
+        layers.sheen = materialData.sheen.rgb * LAYER_TEXEL(kSheenColor, uvs).rgb;
+        layers.sheenRoughness = materialData.sheen.a * LAYER_TEXEL(kSheenRoughness, uvs).a;
     }
     if (materialHas(kMaterialSpecular)) {
-        layers.dielectric = materialData.dielectric.rgb;
-        layers.grazing = materialData.dielectric.a;
+        layers.grazing = materialData.dielectric.a * LAYER_TEXEL(kSpecular, uvs).a;
+        layers.dielectric = min(materialData.dielectric.rgb * LAYER_TEXEL(kSpecularColor, uvs).rgb, 1.0) * layers.grazing;
+    }
+    if (materialHas(kMaterialIridescence)) {
+        layers.filmThickness =
+            mix(materialData.iridescence.z, materialData.iridescence.w, LAYER_TEXEL(kIridescenceThickness, uvs).g);
+        layers.film = layers.filmThickness > 0.0 ? materialData.iridescence.x * LAYER_TEXEL(kIridescence, uvs).r : 0.0;
     }
     if (materialHas(kMaterialAnisotropy)) {
         vec3 texel = vec3(1.0, 0.0, 1.0);
-        if (hasTexture(kAnisotropy)) {
-            texel = texture(anisotropyTexture, placed(kAnisotropy, uvs)).rgb;
+        if (kAnisotropySlot != kNoLayerSlot) {
+            texel = LAYER_TEXEL(kAnisotropy, uvs).rgb;
             texel.xy = 2.0 * texel.xy - 1.0;
         }
         float c = materialData.anisotropy.y, s = materialData.anisotropy.z;
         layers.stretch = vec3(c * texel.x - s * texel.y, s * texel.x + c * texel.y, materialData.anisotropy.x * texel.z);
     }
     if (materialHas(kMaterialDiffuseTransmission)) {
-        layers.inside = materialData.diffuseTransmission.rgb;
-        if (hasTexture(kDiffuseTransmissionColor))
-            layers.inside *= texture(diffuseTransmissionColorTexture, placed(kDiffuseTransmissionColor, uvs)).rgb;
+        layers.inside = materialData.diffuseTransmission.rgb * LAYER_TEXEL(kDiffuseTransmissionColor, uvs).rgb;
+        layers.scattersThrough = materialData.diffuseTransmission.a * LAYER_TEXEL(kDiffuseTransmission, uvs).a;
     }
+    layers.thickness = materialData.extinction.w * LAYER_TEXEL(kThickness, uvs).g;
     return layers;
 }
 
@@ -98,7 +114,8 @@ vec3 stretchedAlong(Layers layers, vec3 n, vec3 tangent, float up) {
 
 /// The coat's own normal map, in tangent space.
 vec3 clearcoatTexelAt(vec2 uv) {
-    return (2.0 * texture(clearcoatNormalTexture, uv).xyz - 1.0) * vec3(vec2(materialData.clearcoatNormalScale), 1.0);
+    vec3 texel = texture(layerTextures[kClearcoatNormalSlot & (kNoLayerSlot - 1u)], uv).xyz;
+    return (2.0 * texel - 1.0) * vec3(vec2(materialData.clearcoatNormalScale), 1.0);
 }
 
 /// Over all directions: what fibers send back. A fit of the "Charlie" distribution (Estevez and Kulla, 2017), as three.js has it.
@@ -126,6 +143,44 @@ struct Layered {
     float glow;   // the share of its emission that leaves
 };
 
+/// Fresnel's reflectance by Schlick.
+vec3 schlick(vec3 f0, float cosine) { return f0 + (1.0 - f0) * pow(clamp(1.0 - cosine, 0.0, 1.0), 5.0); }
+
+/// What an eye sees of a wave that comes back with this delay (nanometres) and these shifts (radians), in linear RGB. Gaussians
+/// fitted to CIE's curves, in the space of frequencies: Belcour and Barla, "A Practical Extension to Microfacet Theory for the
+/// Modeling of Varying Iridescence" (2017), with numbers from their code.
+vec3 seenOfDelay(float delay, vec3 shift) {
+    float phase = 2.0 * kPi * 1e-9 * delay;
+    vec3 height = vec3(5.4856e-13, 4.4201e-13, 5.2481e-13), middle = vec3(1.6810e6, 1.7953e6, 2.2084e6);
+    vec3 variance = vec3(4.3278e9, 9.3046e9, 6.6121e9);
+    vec3 xyz = height * sqrt(2.0 * kPi * variance) * cos(middle * phase + shift) * exp(-phase * phase * variance);
+    xyz.x += 9.7470e-14 * sqrt(2.0 * kPi * 4.5282e9) * cos(2.2399e6 * phase + shift.x) * exp(-4.5282e9 * phase * phase);
+    return mat3(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314, 0.0415560, 1.0572252) *
+           (xyz / 1.0685e-7);
+}
+
+/// What a film of this index and thickness (nanometres) mirrors over what mirrors `base`, as an f0: Belcour and Barla, section
+/// 4.2, with two bounces inside the film, as KHR_materials_iridescence has it.
+vec3 filmMirrors(float index, float thickness, vec3 base, float nv) {
+    index = mix(1.0, index, smoothstep(0.0, 0.03, thickness)); // a film of no thickness mirrors nothing
+    float inside = sqrt(max(1.0 - (1.0 - nv * nv) / (index * index), 0.0)); // Snell: the cosine there
+    float side = (index - 1.0) / (index + 1.0);
+    float first = schlick(vec3(side * side), nv).x;
+    vec3 root = sqrt(min(base, 0.9999));
+    vec3 below = (1.0 + root) / (1.0 - root);
+    vec3 rise = (below - index) / (below + index);
+    vec3 second = schlick(rise * rise, inside);
+    // A wave is turned where the index rises: of the film's back, and inside, of its front.
+    vec3 shift = kPi + mix(vec3(0.0), vec3(kPi), lessThan(below, vec3(index)));
+    float delay = 2.0 * index * thickness * inside, passes = (1.0 - first) * (1.0 - first);
+    vec3 both = clamp(first * second, 1e-5, 0.9999), all = passes * second / (1.0 - both);
+    vec3 mirrored = first + all, bounce = (all - (1.0 - first)) * sqrt(both);
+    mirrored += bounce * 2.0 * seenOfDelay(delay, shift);
+    mirrored += bounce * sqrt(both) * 2.0 * seenOfDelay(2.0 * delay, 2.0 * shift);
+    float rim = min(pow(clamp(1.0 - nv, 0.0, 1.0), 5.0), 0.9999); // Schlick, the other way round
+    return clamp((max(mirrored, 0.0) - rim) / (1.0 - rim), 0.0, 1.0);
+}
+
 /// What it mirrors below its layers.
 vec3 layeredMirror(Material material, Layers layers, Incident light, Place at) {
     if (!materialHas(kMaterialAnisotropy))
@@ -138,19 +193,21 @@ Layered layeredShade(Material material, Layers layers, Incident light, Place at)
     vec3 n = at.n, surface = at.surface, v = at.v;
     float nv = clamp(dot(n, v), 1e-3, 1.0);
     vec3 f0 = mix(layers.dielectric, material.albedo, material.metallic);
+    if (materialHas(kMaterialIridescence))
+        f0 = mix(f0, filmMirrors(materialData.iridescence.y, layers.filmThickness, f0, nv), layers.film);
     vec3 share = mirroredShareOf(f0, mix(layers.grazing, 1.0, material.metallic), material.roughness, nv);
     vec3 enters = (1.0 - material.metallic) * (1.0 - share);
     vec3 body = material.albedo * enters;
     vec3 scattered = body * studioScattered(material.occlusion, light, n, surface);
     if (materialHas(kMaterialDiffuseTransmission)) {
         vec3 inside = studioInside(light, materialData.extinction, at.position, surface, at.noise);
-        scattered = mix(scattered, enters * layers.inside * inside, materialData.diffuseTransmission.a);
+        scattered = mix(scattered, enters * layers.inside * inside, layers.scattersThrough);
     }
     Layered shown;
     shown.lit = (1.0 - layers.transmission) * scattered + share * layeredMirror(material, layers, light, at);
     shown.through = body * layers.transmission;
     if (materialHas(kMaterialTransmission))
-        shown.through *= exp(-materialData.extinction.rgb * materialData.extinction.w);
+        shown.through *= exp(-materialData.extinction.rgb * layers.thickness);
     shown.glow = 1.0;
     if (materialHas(kMaterialTransmission)) {
         // Rough glass sends on what comes from all round behind it, as ground glass does.

@@ -102,7 +102,7 @@ void main() {
     Material material = paintedMaterial(base.rgb);
     vec3 mapped = kView == kViewShaded ? normalFromMap(front) : front;
     vec3 coat = front;
-    if (kView == kViewShaded && materialHas(kMaterialClearcoat) && hasTexture(kClearcoatNormal)) {
+    if (kView == kViewShaded && materialHas(kMaterialClearcoat) && kClearcoatNormalSlot != kNoLayerSlot) {
         vec2 uv = placed(kClearcoatNormal, inUvs);
         coat = mappedNormalHere(front, inPosition, uv, clearcoatTexelAt(uv));
     }

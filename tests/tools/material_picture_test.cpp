@@ -609,6 +609,71 @@ TEST_F(MaterialPictureTest, GroundGlassBlursWhatIsBehind) {
     EXPECT_LT(contrast("0.8"), 40);
 }
 
+TEST_F(MaterialPictureTest, AThinFilmColorsWhatIsMirrored) {
+    const Picture black = texels([](uint32_t, uint32_t) { return glm::u8vec4(0, 0, 0, 255); });
+    SceneFile ball;
+    ball.meshes = {test::ballMesh(glm::vec3(0.0f), 0.8f, 6, 0)};
+    ball.images = {black};
+    for (const bool cage : {false, true}) {
+        const auto drawn = [&](const std::string& members) {
+            ball.materials = {R"({"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.8,0.8,1],"metallicFactor":1,)"
+                              R"("roughnessFactor":0.6},"extensions":{"KHR_materials_iridescence":{)" +
+                              members + "}}}"};
+            return draw(ball, facing(), cage);
+        };
+        const auto colored = [&](const std::string& members) {
+            const glm::ivec3 color = colorAt(drawn(members), 120, 100);
+            return color - (color.x + color.y + color.z) / 3;
+        };
+        const std::string film = R"("iridescenceFactor":1,"iridescenceIor":1.8)";
+        const std::string thick = R"(,"iridescenceThicknessMaximum":)";
+        const Picture bare = drawn("");
+        EXPECT_EQ(drawn(R"("iridescenceIor":1.8)").rgba, bare.rgba) << "no film changes no pixel";
+        // There and back a wave goes through 3.6 times the thickness. Both sides of the film turn it, so whole wave
+        // lengths come back together: of green, which is 550 nanometres long, at 306. At 229 they cancel out.
+        EXPECT_GT(colored(film + thick + "306").y, colored(film + thick + "229").y + 20);
+        EXPECT_LT(colored(film + thick + "229").y, -10);
+        EXPECT_EQ(drawn(film + thick + R"(400,"iridescenceTexture":{"index":0})").rgba, bare.rgba) << "by its red";
+        EXPECT_EQ(drawn(film + thick + R"(400,"iridescenceThicknessTexture":{"index":0})").rgba,
+                  drawn(film + thick + "100").rgba)
+            << "the least, which is 100";
+    }
+}
+
+TEST_F(MaterialPictureTest, TexturesOfLayersMultiplyTheirFactors) {
+    // Without alpha, and black: what is multiplied by any of its channels is nothing.
+    const Picture nothing = texels([](uint32_t, uint32_t) { return glm::u8vec4(0, 0, 0, 0); });
+    const struct {
+        const char *layer, *factors, *texture, *without;
+    } cases[] = {
+        {"specular", "", "specularTexture", R"("specularFactor":0)"},
+        {"specular", "", "specularColorTexture", R"("specularColorFactor":[0,0,0])"},
+        {"sheen", R"("sheenColorFactor":[0.5,1,0.5],"sheenRoughnessFactor":0.5)", "sheenColorTexture", ""},
+        {"sheen", R"("sheenColorFactor":[0.5,1,0.5],"sheenRoughnessFactor":0.5)", "sheenRoughnessTexture",
+         R"("sheenColorFactor":[0.5,1,0.5])"},
+        {"clearcoat", R"("clearcoatFactor":1,"clearcoatRoughnessFactor":0.6)", "clearcoatTexture", ""},
+        {"clearcoat", R"("clearcoatFactor":1,"clearcoatRoughnessFactor":0.6)", "clearcoatRoughnessTexture",
+         R"("clearcoatFactor":1)"},
+        {"transmission", R"("transmissionFactor":0.8)", "transmissionTexture", ""},
+        {"diffuse_transmission", R"("diffuseTransmissionFactor":0.8,"diffuseTransmissionColorFactor":[1,0.2,0.2])",
+         "diffuseTransmissionTexture", ""},
+    };
+    SceneFile ball;
+    ball.meshes = {test::ballMesh(glm::vec3(0.0f), 0.8f, 6, 0)};
+    ball.images = {nothing};
+    for (const auto& [layer, factors, texture, without] : cases) {
+        SCOPED_TRACE(texture);
+        const auto drawn = [&](const std::string& members) {
+            ball.materials = {layered("[0.4,0.3,0.2,1]", layer, members)};
+            return draw(ball, facing());
+        };
+        const std::string factor = factors;
+        const Picture with = drawn(factor + (factor.empty() ? "\"" : ",\"") + texture + R"(":{"index":0})");
+        EXPECT_NE(with.rgba, drawn(factor).rgba);
+        EXPECT_LE(furthest(with, drawn(without)), 1);
+    }
+}
+
 TEST_F(MaterialPictureTest, OcclusionDimsLightFromAllRound) {
     const Picture left = texels([](uint32_t x, uint32_t) { return glm::u8vec4(x < 4 ? 255 : 0, 0, 0, 255); });
     const auto at = [&](const std::string& strength, uint32_t x) {

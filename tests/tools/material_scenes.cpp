@@ -314,11 +314,37 @@ void addScattered(const std::function<void(const std::string& material, uint32_t
         4);
 }
 
+/// Thin films: on lacquer of three thicknesses, on a metal, and a soap bubble that is thicker below. `slope`: an image.
+void addFilms(const std::function<void(const std::string& material, uint32_t column)>& add, size_t slope) {
+    const auto film = [](const std::string& index, const std::string& thickness, const std::string& more = {}) {
+        return R"(,"extensions":{"KHR_materials_iridescence":{"iridescenceFactor":1,"iridescenceIor":)" + index +
+               R"(,"iridescenceThicknessMaximum":)" + thickness + more + "}";
+    };
+    const std::string lacquer = "[0.02,0.02,0.025,1]";
+    add(surface(lacquer, 0.0f, 0.2f, film("1.8", "250") + "}"), 0);
+    add(surface(lacquer, 0.0f, 0.2f, film("1.8", "350") + "}"), 1);
+    add(surface(lacquer, 0.0f, 0.2f, film("1.8", "500") + "}"), 2);
+    add(surface("[0.8,0.8,0.8,1]", 1.0f, 0.25f, film("2.2", "420") + "}"), 3);
+    add(surface("[1,1,1,1]", 0.0f, 0.0f,
+                film("1.33", "800",
+                     R"(,"iridescenceThicknessMinimum":200,"iridescenceThicknessTexture":{"index":)" +
+                         std::to_string(slope) + "}") +
+                    R"(,"KHR_materials_transmission":{"transmissionFactor":1}})"),
+        4);
+}
+
+Picture slopeMap() {
+    Picture picture = Picture::blank(1, 64);
+    for (uint32_t y = 0; y < picture.height; ++y)
+        std::fill_n(picture.pixel(0, y), 3, static_cast<uint8_t>(255 * y / (picture.height - 1)));
+    return picture;
+}
+
 } // namespace
 
 SceneFile layerScene() {
     SceneFile scene;
-    scene.images = {studMap(), checker(4, {255, 255, 255, 255}, {0, 0, 0, 255})};
+    scene.images = {studMap(), checker(4, {255, 255, 255, 255}, {0, 0, 0, 255}), slopeMap()};
     const auto add = [&](const std::string& material, uint32_t column, uint32_t row) {
         scene.materials.push_back(material);
         scene.meshes.push_back(ballMesh(glm::vec3(column, 3.0f - static_cast<float>(row), 0.0f) * 1.1f, 0.47f, 10,
@@ -357,6 +383,7 @@ SceneFile layerScene() {
     add(surface(dark, 0.0f, 0.25f, extended("ior", R"("ior":2.4)")), 3, 3);
     add(surface(dark, 0.0f, 0.25f, extended("specular", R"("specularColorFactor":[4,1.5,0.2])")), 4, 3);
     addScattered([&](const std::string& material, uint32_t column) { add(material, column, 4); });
+    addFilms([&](const std::string& material, uint32_t column) { add(material, column, 5); }, 2);
     scene.materials.push_back(surface("[0.8,0.8,0.8,1]", 0.0f, 0.8f));
     scene.materials.back().insert(scene.materials.back().find("{\"base") + 1, R"("baseColorTexture":{"index":1},)");
     scene.meshes.push_back(squareMesh(glm::vec3(2.2f, 1.1f, -0.9f), 0.55f, 4, scene.materials.size() - 1));
