@@ -20,7 +20,7 @@ constexpr gpu::SyncScope kQueryAll{kQueryWrites.stages, kQueryWrites.access | VK
 QuerySource sourceOf(const std::shared_ptr<Group>& group) {
     const PointSource points = group->pointSource();
     const uint32_t vertices = group->asset().character.cage.vertexCount();
-    return {points.device, points.listing, points.cages, points.cageStride, vertices, &group->surfaces(), group};
+    return {points.device, points.listing, points.cages, points.cageStride, vertices, points.surfaces, group};
 }
 
 /// Lanes own hits by number, and kNothingMet is none.
