@@ -105,8 +105,11 @@ private:
     [[nodiscard]] Status createSets();
     [[nodiscard]] Status createCopies();
     [[nodiscard]] shared::PointPush pushOf(const Reach& reach) const;
-    /// What is written of a reach.
-    struct Written;
+    /// What is written of a reach, as descriptors take it, and the elements where it begins there.
+    struct Written {
+        VkDescriptorBufferInfo points{}, pasts{};
+        uint32_t firstElement = 0, firstPast = 0;
+    };
     [[nodiscard]] Written writtenOf(const Reach& reach) const;
 
     PointSource source_;
