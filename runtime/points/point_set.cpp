@@ -36,11 +36,6 @@ VkDeviceSize roomOf(const gpu::Device& device) {
 
 } // namespace
 
-/// The buffers of a reach as descriptors take them.
-struct PointSet::Written {
-    AlignedRange points, pasts;
-};
-
 Result<PointTableBuffer> makePointTable(const gpu::Device& device, std::vector<uint32_t> words,
                                         VertexPoints onVertices) {
     std::vector<gpu::StaticRequest> requests;
@@ -136,19 +131,18 @@ PointSet::Written PointSet::writtenOf(const Reach& reach) const {
     const VkDeviceSize pointBytes = VkDeviceSize{pointCount()} * bytesOf(recipe_.format),
                        pastBytes = VkDeviceSize{pointCount()} * kPastBytes,
                        slot = source_.listing->windows().firstSlot(reach.window) + reach.firstSlot;
-    Written written;
-    written.points = alignedRange(output_.buffer(0), slot * pointBytes, reach.slotCount * pointBytes);
+    const AlignedRange points = alignedRange(output_.buffer(0), slot * pointBytes, reach.slotCount * pointBytes);
     // Formats that have no past never look at it.
-    written.pasts =
-        hasPasts() ? alignedRange(output_.buffer(1), slot * pastBytes, reach.slotCount * pastBytes) : written.points;
-    return written;
+    const AlignedRange pasts =
+        hasPasts() ? alignedRange(output_.buffer(1), slot * pastBytes, reach.slotCount * pastBytes) : points;
+    return {points.info, pasts.info, points.first, pasts.first};
 }
 
 Status PointSet::createCopies() {
     std::vector<VertexCopies::Target> targets;
     for (const Reach& reach : reaches_) {
         const Written written = writtenOf(reach);
-        targets.push_back({written.points.info, written.pasts.info, reach.window});
+        targets.push_back({written.points, written.pasts, reach.window});
     }
     const VkBuffer entries = table_->runs.empty() ? VK_NULL_HANDLE : table_->buffers.buffer(1);
     copies_.emplace(
@@ -179,8 +173,8 @@ Status PointSet::createSets() {
     for (size_t r = 0; r < reaches_.size() && status; ++r) {
         Reach& reach = reaches_[r];
         const Written written = writtenOf(reach);
-        reach.firstElement = written.points.first;
-        reach.firstPast = written.pasts.first;
+        reach.firstElement = written.firstElement;
+        reach.firstPast = written.firstPast;
         const VkDeviceSize firstCage = windows.firstSlot(reach.window) * cageBytes,
                            cages = windows.slots(reach.window) * cageBytes;
         const gpu::BoundResource resources[] = {
@@ -188,8 +182,8 @@ Status PointSet::createSets() {
             {kPointTableTexelBinding, {}, table},
             {kPointCageBinding, {source_.cages, firstCage, cages}, VK_NULL_HANDLE},
             {kPointCageTexelBinding, {}, view(source_.cages, gpu::kFloat4, firstCage, cages, "supple deformed cage")},
-            {kPointBinding, written.points.info, VK_NULL_HANDLE},
-            {kPointPastBinding, written.pasts.info, VK_NULL_HANDLE},
+            {kPointBinding, written.points, VK_NULL_HANDLE},
+            {kPointPastBinding, written.pasts, VK_NULL_HANDLE},
             {kInstanceBinding, {list, 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
             {kInstanceTexelBinding, {}, instances},
         };
