@@ -28,6 +28,10 @@ PointRecipe recipeOf(const SupplePointSetDesc& desc) {
 
 Result<PointTableBuffer> tableOf(const gpu::Device& device, const CpuGroup& surfaces, const Group& group,
                                  const PointRecipe& recipe) {
+    if (recipe.onVertices && group.view() != nullptr) {
+        return Error{ErrorCode::argument, "SUPPLE_POINT_SET_ON_VERTICES: a group of a view has no vertices of all its "
+                                          "instances"};
+    }
     Result<std::vector<uint32_t>> words =
         pointTable(surfaces, recipe.points, recipe.tangents, recipe.format == SUPPLE_POINT_DERIVATIVES_32,
                    std::min(mostTableElements(device), kMostPointElements));

@@ -79,9 +79,8 @@ typedef enum SupplePointFormat {
 
 /** SupplePointSetDesc.flags. */
 typedef enum SupplePointSetFlags {
-    /** Points that lie where a surface vertex is have that vertex's position, to the bit. All others, and all frames,
-     * are as they are without the flag. For groups that keep surface vertices at a rate, of any scheme. Their frames
-     * come behind *evaluate* then. */
+    /** Points that lie where a surface vertex is have that vertex's position, to the bit. Other points, and how all are
+     * turned, are as they are without the flag. For groups without a view that keep surface vertices, of any scheme. */
     SUPPLE_POINT_SET_ON_VERTICES = 1,
     SUPPLE_POINT_SET_FLAGS_MAX_ENUM = 0x7FFFFFFF
 } SupplePointSetFlags;
@@ -129,7 +128,7 @@ typedef struct SupplePointOutput {
  * suppleCpuCreateGroup refuses; more points than the device can bind for one instance, or than 32 bits number with all
  * instances; a point that hangs on more than 4096 vertices, or weights of more than 33,554,432 elements (one for each
  * vertex of a point) or than the device binds; SUPPLE_POINT_SET_ON_VERTICES with SUPPLE_POINT_DERIVATIVES_32, or of a
- * group without surface vertices at a rate (SUPPLE_SCHEME_CAGE, levels, SUPPLE_GROUP_DIRECT); memory.
+ * group without surface vertices at a rate (SUPPLE_SCHEME_CAGE, a view, SUPPLE_GROUP_DIRECT); memory.
  * SUPPLE_ERROR_UNSUPPORTED if the library was built with SUPPLE_WITH_CPU=OFF. `out->id` is 0 then. */
 SUPPLE_API SuppleResult suppleCreatePointSet(SuppleContext context, const SupplePointSetDesc* desc,
                                              SupplePointSet* out);

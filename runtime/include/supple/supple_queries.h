@@ -123,8 +123,8 @@ typedef struct SuppleQueryDesc {
     SuppleSyncScope before;
     SuppleSyncScope after; /**< what reads the hits on the device */
     /** Instead of rays: places of the host that the nearest points are asked for. Of points that are equally near
-     * (distances that differ by less than a millionth of the instance's size), it is that of the first group, slot of
-     * the frame's list, and face. */
+     * (distances that differ by less than a millionth of the instance's size, and what rounding leaves far from the
+     * origin), it is that of the first group, instance and face. */
     const SupplePlace* hostPlaces;
     SuppleBufferRange places; /**< or those of the device, 16 bytes apart, else as rays */
 } SuppleQueryDesc;
