@@ -229,13 +229,13 @@ PassCost PointSet::record(gpu::Dispatches& dispatches, uint64_t frame, const glm
     if (staticsPending()) {
         return {};
     }
-    const bool isFirst = first_.due();
+    isFirst_ = first_.due();
     first_.record(frame);
     lastRecordedFrame_ = frame;
     const InstanceWindows& windows = source_.listing->windows();
     for (size_t r = 0; r < reaches_.size(); ++r) {
         PointPush push = pushOf(reaches_[r]);
-        push.isFirst = isFirst ? 1 : 0;
+        push.isFirst = isFirst_ ? 1 : 0;
         push.pastX = pastStep.x;
         push.pastY = pastStep.y;
         push.pastZ = pastStep.z;
@@ -247,7 +247,7 @@ PassCost PointSet::record(gpu::Dispatches& dispatches, uint64_t frame, const glm
     return {points, points * (bytesOf(recipe_.format) + (hasPasts() ? kPastBytes : 0))};
 }
 
-PassCost PointSet::recordCopies(gpu::Dispatches& dispatches, uint64_t frame) const {
+PassCost PointSet::recordCopies(gpu::Dispatches& dispatches) const {
     if (staticsPending() || !copiesVertices()) {
         return {};
     }
@@ -261,7 +261,7 @@ PassCost PointSet::recordCopies(gpu::Dispatches& dispatches, uint64_t frame) con
         push.slotCount = own.slotCount;
         push.firstElement = own.firstElement;
         push.firstPast = own.firstPast;
-        push.isFirst = first_.recordedIn(frame) ? 1 : 0;
+        push.isFirst = isFirst_ ? 1 : 0;
         if (push.instanceCount > 0) {
             copies_->record(dispatches, r, recipe_.format, push);
         }

@@ -78,7 +78,7 @@ public:
     /// Whether some points have the positions of surface vertices.
     [[nodiscard]] bool copiesVertices() const { return copies_ && copies_->count() > 0; }
     /// Behind record() and the surface vertices of the frame.
-    PassCost recordCopies(gpu::Dispatches& dispatches, uint64_t frame) const;
+    PassCost recordCopies(gpu::Dispatches& dispatches) const;
     /// The surfaces have other buffers, or are about to free theirs.
     [[nodiscard]] Status bindVertices() { return copies_ ? copies_->bind() : success(); }
     void unbindVertices();
@@ -120,6 +120,7 @@ private:
     gpu::BufferSet output_; ///< what the host reads; where points were, if the format tells
     ZeroedOnce clear_;      ///< instances that no frame has listed have frames of zeros
     RecordedOnce first_;    ///< the first frame: no point has a past
+    bool isFirst_ = false;  ///< the newest frame is
     std::vector<Reach> reaches_;
     gpu::TexelViews views_;
     gpu::BoundSets sets_;                ///< by reach

@@ -67,9 +67,9 @@ bool PointSets::copyVertices() const {
     return any;
 }
 
-PassCost PointSets::recordCopies(gpu::Dispatches& dispatches, uint64_t frame) const {
+PassCost PointSets::recordCopies(gpu::Dispatches& dispatches) const {
     PassCost cost;
-    forEach([&](const PointSet& set) { cost += set.recordCopies(dispatches, frame); });
+    forEach([&](const PointSet& set) { cost += set.recordCopies(dispatches); });
     return cost;
 }
 

@@ -42,7 +42,7 @@ public:
     /// Whether points of some set have the positions of surface vertices.
     [[nodiscard]] bool copyVertices() const;
     /// Behind the surface vertices.
-    PassCost recordCopies(gpu::Dispatches& dispatches, uint64_t frame) const;
+    PassCost recordCopies(gpu::Dispatches& dispatches) const;
     /// The surfaces have other buffers, or are about to free theirs.
     [[nodiscard]] Status bindVertices();
     void unbindVertices();

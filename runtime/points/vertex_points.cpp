@@ -33,10 +33,10 @@ bool areSame(const cpu::Place& a, const cpu::Place& b) {
     return a.sector == b.sector && std::abs(a.x - b.x) <= kSameParameter && std::abs(a.y - b.y) <= kSameParameter;
 }
 
-/// Whether some sample may lie there. Patches lie in their pieces by maps of whole numbers.
-bool mayBeSample(const cpu::Place& place, uint32_t rate) {
-    const auto isWhole = [](double x) { return std::abs(x - std::round(x)); };
-    return std::max(isWhole(place.x * rate), isWhole(place.y * rate)) <= kSameParameter * rate;
+/// Whether some sample may lie there, of a piece that has so many segments along a side.
+bool mayBeSample(const cpu::Place& place, uint32_t along) {
+    const auto off = [](double x) { return std::abs(x - std::round(x)); };
+    return std::max(off(place.x * along), off(place.y * along)) <= kSameParameter * along;
 }
 
 class VertexFinder {
@@ -49,7 +49,7 @@ public:
         for (uint32_t rate = 1; rate <= SUPPLE_MAX_RATE; ++rate) {
             std::vector<uint32_t> vertices;
             for (const PlacedPoint& own : points) {
-                if (!mayBeSample(own.place, rate)) {
+                if (!mayBeSample(own.place, rate << surface_.tables().isolationSteps)) {
                     continue;
                 }
                 vertices = vertices.empty() ? surface_.verticesOf(patch, rate) : std::move(vertices);
@@ -70,6 +70,10 @@ public:
                 continue;
             }
             std::sort(found.begin(), found.end());
+            // On a border of patches in one piece all have the same bits.
+            found.erase(std::unique(found.begin(), found.end(),
+                                    [](const auto& a, const auto& b) { return a.first == b.first; }),
+                        found.end());
             out.runs.push_back(
                 {surface, rate, static_cast<uint32_t>(out.words.size() / 2), static_cast<uint32_t>(found.size())});
             for (const auto& [point, vertex] : found) {

@@ -289,6 +289,7 @@ TEST_F(VertexPoints, HaveTheSameBitsHoweverTheGroupIsKept) {
         wrapped.maxStorageBufferRange = kept.most;
         CrowdContext own(*device, kept.mapping, 2, kept.flags);
         SuppleGroupDesc desc = vertexGroup(own.createAsset(tube), SUPPLE_SCHEME_PM, kInstances);
+        desc.rate = 4;
         desc.keepUnseenFrames = kept.unseenFrames;
         Crowd crowd(own, desc);
         ASSERT_TRUE(crowd.valid());
