@@ -117,20 +117,19 @@ struct Near {
 
 // From a point on. `c`: less the place. A round that leads farther away is tried again with a part of its step.
 Near approached(uint kind, vec3 c[kPieceCoefficients], vec2 at) {
-    Bend bend = bendAt(kind, c, at);
-    Near best = Near(dot(bend.position, bend.position), at);
-    vec2 step = stepTo(kind, bend, at);
-    for (uint round = 0u; round < kNearRounds; ++round) {
-        vec2 next = held(kind, best.at + step);
-        if (all(lessThan(abs(next - best.at), vec2(kShortestStep)))) break;
-        bend = bendAt(kind, c, next);
+    Near best = Near(3e38, at);
+    vec2 step = vec2(0.0);
+    for (uint round = 0u; round <= kNearRounds; ++round) {
+        Bend bend = bendAt(kind, c, at);
         float square = dot(bend.position, bend.position);
         if (square < best.square) {
-            best = Near(square, next);
-            step = stepTo(kind, bend, next);
+            best = Near(square, at);
+            step = stepTo(kind, bend, at);
         } else {
             step *= 0.25;
         }
+        at = held(kind, best.at + step);
+        if (all(lessThan(abs(at - best.at), vec2(kShortestStep)))) break;
     }
     return best;
 }

@@ -188,7 +188,7 @@ void askForNearest(CrowdContext& own, const cage::Character& character, SuppleSc
     if (!truth) {
         const Surfaces surfaces = surfacesOf(character, scheme);
         ASSERT_NE(surfaces, nullptr);
-        truth = nearTruth(surfaces, cage, count, character.cage.faceCount() > 1000 ? 16 : 48);
+        truth = nearTruth(surfaces, cage, count, character.cage.faceCount() > 1000 ? 16 : 32);
     }
     ASSERT_EQ(cage, truth->cage);
     const std::vector<SuppleHit> hits = pool.run(truth->places);

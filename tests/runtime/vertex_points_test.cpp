@@ -284,12 +284,13 @@ TEST_F(VertexPoints, HaveTheSameBitsHoweverTheGroupIsKept) {
     };
     std::vector<std::byte> bits;
     for (const Kept& kept :
-         {Kept{SUPPLE_MAPPING_NARROW}, Kept{SUPPLE_MAPPING_WIDE, 0, 1u << 18},
+         {Kept{SUPPLE_MAPPING_NARROW}, Kept{SUPPLE_MAPPING_WIDE, 0, 1u << 17},
           Kept{SUPPLE_MAPPING_WIDE, SUPPLE_CONTEXT_SHARED_DISPATCHES}, Kept{SUPPLE_MAPPING_NARROW, 0, 0, 2}}) {
         wrapped.maxStorageBufferRange = kept.most;
         CrowdContext own(*device, kept.mapping, 2, kept.flags);
         SuppleGroupDesc desc = vertexGroup(own.createAsset(tube), SUPPLE_SCHEME_PM, kInstances);
         desc.rate = 4;
+        desc.flags = kept.most > 0 ? SUPPLE_GROUP_WINDOWS : 0;
         desc.keepUnseenFrames = kept.unseenFrames;
         Crowd crowd(own, desc);
         ASSERT_TRUE(crowd.valid());
