@@ -271,7 +271,7 @@ TEST_F(VertexPoints, FollowTheirGroup) {
 /// A device that binds few bytes at a time, groups that share dispatches, and groups that give back their memory.
 TEST_F(VertexPoints, HaveTheSameBitsHoweverTheGroupIsKept) {
     const cage::Character tube = bentVertexTube();
-    const std::vector<SuppleSurfacePoint> points = latticeOf(tube.cage, 4, 4);
+    const std::vector<SuppleSurfacePoint> points = latticeOf(tube.cage, 2, 2);
     WrappedVulkan& wrapped = wrappedVulkan();
     const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
     ASSERT_NE(device, nullptr);
