@@ -213,6 +213,12 @@ TEST_F(NearestPoints, AreAsNearAsDenseSamples) {
         std::optional<NearTruth> truth;
         NearFigures own;
         for (const SuppleMapping mapping : kMappings) {
+            // All schemes have the same kernel: squares, triangles and a cage tell.
+            const bool tells =
+                scheme == SUPPLE_SCHEME_PM || scheme == SUPPLE_SCHEME_LOOP || scheme == SUPPLE_SCHEME_CAGE;
+            if (mapping == SUPPLE_MAPPING_WIDE && !tells) {
+                continue;
+            }
             SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
             askForNearest(context(mapping), nearTube(), scheme, 200, truth, own);
         }
@@ -230,22 +236,14 @@ TEST_F(NearestPoints, AreAsNearAsDenseSamples) {
 
 /// The character of the samples, bent by a clip.
 TEST_F(NearestPoints, LieOnABentCharacter) {
-    const cage::Character character = readCharacter(kPipQuads);
-    NearFigures all;
-    for (const auto& [scheme, mapping] : {std::pair(SUPPLE_SCHEME_PM, SUPPLE_MAPPING_NARROW),
-                                          std::pair(SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_MAPPING_WIDE)}) {
-        SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
-        std::optional<NearTruth> truth;
-        NearFigures own;
-        askForNearest(context(mapping), character, scheme, 64, truth, own);
-        print(scheme, own);
-        all.wrong += own.wrong;
-        all.farther += own.farther;
-        EXPECT_LE(own.off, 3e-4);
-        EXPECT_LE(own.normal, 5e-2);
-    }
-    EXPECT_EQ(all.wrong, 0u);
-    EXPECT_EQ(all.farther, 0u);
+    NearFigures own;
+    std::optional<NearTruth> truth;
+    askForNearest(context(SUPPLE_MAPPING_NARROW), readCharacter(kPipQuads), SUPPLE_SCHEME_PM, 64, truth, own);
+    print(SUPPLE_SCHEME_PM, own);
+    EXPECT_EQ(own.wrong, 0u);
+    EXPECT_EQ(own.farther, 0u);
+    EXPECT_LE(own.off, 3e-6);
+    EXPECT_LE(own.normal, 1e-3);
 }
 
 /// Among all instances of all groups, up to a distance, and the lower face of two.
@@ -254,8 +252,7 @@ TEST_F(NearestPoints, SayWhichInstanceOfWhichGroupIsNear) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
         const SuppleAsset asset = own.createAsset(cage::makeCubeSphere(2));
-        Crowd first(own, nearGroup(asset, SUPPLE_SCHEME_CATMULL_CLARK, 4)),
-            second(own, nearGroup(asset, SUPPLE_SCHEME_CAGE, 4));
+        Crowd first(own, nearGroup(asset, SUPPLE_SCHEME_PM, 4)), second(own, nearGroup(asset, SUPPLE_SCHEME_CAGE, 4));
         NearestPool pool(own, {second.group(), first.group()}, 64);
         const auto spawn = [](Crowd& crowd, float x) {
             const SuppleInstance made = crowd.spawn();
