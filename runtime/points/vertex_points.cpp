@@ -20,7 +20,7 @@ struct PlacedPoint {
 using PlacedPoints = std::unordered_map<uint32_t, std::vector<PlacedPoint>>; ///< by piece
 
 /// Where sectors of a pentagon meet, samples are those of the sector behind, and the middle that of the first.
-cpu::Place unique(surface::Domain domain, cpu::Place place) {
+cpu::Place uniquePlace(surface::Domain domain, cpu::Place place) {
     if (domain == surface::Domain::pentagon && place.x + place.y >= 1.0 - kSameParameter) {
         const bool isMiddle = place.y >= 1.0 - kSameParameter;
         place.sector = isMiddle ? 0 : (place.sector + 1) % 5;
@@ -29,7 +29,7 @@ cpu::Place unique(surface::Domain domain, cpu::Place place) {
     return place;
 }
 
-bool areSame(const cpu::Place& a, const cpu::Place& b) {
+bool isSamePlace(const cpu::Place& a, const cpu::Place& b) {
     return a.sector == b.sector && std::abs(a.x - b.x) <= kSameParameter && std::abs(a.y - b.y) <= kSameParameter;
 }
 
@@ -53,9 +53,10 @@ public:
                     continue;
                 }
                 vertices = vertices.empty() ? surface_.verticesOf(patch, rate) : std::move(vertices);
-                const cpu::Place place = unique(domain, own.place);
+                const cpu::Place place = uniquePlace(domain, own.place);
                 for (uint32_t sample = 0; sample < vertices.size(); ++sample) {
-                    if (areSame(unique(domain, part_.surface->placeOfSample(patch, rate, sample, 0.0)), place)) {
+                    if (isSamePlace(uniquePlace(domain, part_.surface->placeOfSample(patch, rate, sample, 0.0)),
+                                    place)) {
                         byRate_[rate].push_back({own.point, vertices[sample]});
                         break;
                     }
