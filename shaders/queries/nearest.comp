@@ -1,6 +1,7 @@
 // Which points are nearest to some places: a lane a piece of a surface and instance. There are three dispatches. The first bounds
 // how far the nearest point of all is, by boxes alone. The second finds the least distance: few pieces come near enough to be looked
-// at. The third finds the first lane that has it.
+// at. The third finds the first lane that has it, or comes as near up to
+// rounding.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/mapping.glsl"
@@ -31,7 +32,7 @@ void main() {
     for (uint p = first; p < end; ++p) {
         Place place = placeOf(p);
         uint least = best.at[p].x;
-        float within = least == kNothingMet ? place.most : min(place.most, uintBitsToFloat(least) + tieOf(place.position, low, high));
+        float within = least == kNothingMet ? place.most : min(place.most, uintBitsToFloat(least) + tieOf(low, high));
         if (place.sound && leastDistance(place.position, lowOfAll, highOfAll) <= within) asked |= 1u << (p - first);
     }
     if (asked == 0u) return;
@@ -46,7 +47,7 @@ void main() {
             atomicMin(best.at[p].x, floatBitsToUint(mostDistance(place.position, ownLow, ownHigh)));
             continue;
         }
-        float least = uintBitsToFloat(best.at[p].x), within = min(place.most, least + tieOf(place.position, low, high));
+        float least = uintBitsToFloat(best.at[p].x), within = min(place.most, least + tieOf(low, high));
         if (leastDistance(place.position, ownLow, ownHigh) > within) continue;
         vec3 c[kPieceCoefficients];
         loadFrom(own, place.position, c);

@@ -19,8 +19,8 @@ float roundingOf(vec3 place, vec3 low, vec3 high) {
     vec3 farthest = max(max(abs(low), abs(high)), abs(place));
     return 5e-7 * max(farthest.x, max(farthest.y, farthest.z));
 }
-// Distances that differ by less are equal: then the first lane has the point. `low`, `high`: of the instance.
-float tieOf(vec3 place, vec3 low, vec3 high) { return 1e-6 * length(high - low) + roundingOf(place, low, high); }
+// Distances that differ by less are equal: then the first face has the point. `low`, `high`: of the instance.
+float tieOf(vec3 low, vec3 high) { return 1e-6 * length(high - low); }
 
 // No point of a box is nearer than that, and none is farther than that.
 float leastDistance(vec3 place, vec3 low, vec3 high) {

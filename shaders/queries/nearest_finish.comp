@@ -1,4 +1,5 @@
-// Nearest points, as hosts have them: a lane a place. The lane that owns the point says which piece of which instance it is.
+// Nearest points, as hosts have them: a lane a place. The lane that owns the point says which face of which instance it is, by the
+// first of its pieces that come near enough. Of these the nearest has the point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/mapping.glsl"
@@ -19,11 +20,24 @@ void main() {
     if (lane >= push.pieceCount * push.instanceCount) return; // another window's
     uint listed = lane / push.pieceCount, pieceNumber = lane - listed * push.pieceCount, slot = slotOfListed(listed);
     Place place = placeOf(number);
-    Piece own = pieceOf(pieceNumber, slot);
     vec3 c[kPieceCoefficients];
-    loadFrom(own, place.position, c);
-    Near near = nearestOf(own.kind, c);
-    vec3 outwards = jetAt(own.kind, c, near.at).position; // from the place to the point
+    Near near = Near(3e38, vec2(0.0));
+    uint face = piece(kPieceElements * pieceNumber).x, nearest = pieceNumber;
+    for (uint k = pieceNumber; k < push.pieceCount && piece(kPieceElements * k).x == face; ++k) {
+        Piece other = pieceOf(k, slot);
+        vec3 low, high;
+        boxOf(other, low, high);
+        if (k > pieceNumber && leastDistance(place.position, low, high) > sqrt(near.square)) continue;
+        loadFrom(other, place.position, c);
+        Near found = nearestOf(other.kind, c);
+        if (found.square < near.square) {
+            near = found;
+            nearest = k;
+        }
+    }
+    pieceNumber = nearest;
+    Piece own = pieceOf(pieceNumber, slot);
     loadCoefficients(own, c);
+    vec3 outwards = jetAt(own.kind, c, near.at).position + (own.first - place.position); // from the place to the point
     storeHit(number, floatBitsToUint(sqrt(near.square)), slot, pieceNumber, own, c, outwards, near.at);
 }
