@@ -1,7 +1,6 @@
 // Which points are nearest to some places: a lane a piece of a surface and instance. There are three dispatches. The first bounds
 // how far the nearest point of all is, by boxes alone. The second finds the least distance: few pieces come near enough to be looked
-// at. The third finds the first lane that has it, or comes as near up to
-// rounding.
+// at. The third finds the first lane that comes as near (tieOf).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/mapping.glsl"

@@ -147,7 +147,7 @@ NearTruth nearTruth(const Surfaces& surfaces, std::vector<glm::vec3> cage, uint3
 /// What nearest points are off by, in parts of the extent, but for counts.
 struct NearFigures {
     uint32_t places = 0, wrong = 0, farther = 0, nearer = 0;
-    double apart = 0.0, off = 0.0, normal = 0.0;
+    double apart = 0.0, off = 0.0, normal = 0.0, beyond = 0.0; ///< beyond: the CPU's distance
 };
 
 void compareNearest(const NearTruth& truth, const std::vector<SuppleHit>& hits, NearFigures& figures) {
@@ -163,6 +163,7 @@ void compareNearest(const NearTruth& truth, const std::vector<SuppleHit>& hits, 
         figures.wrong += double{hit.t} > truth.samples[k] + 0.01 * truth.extent ? 1 : 0;
         figures.farther += double{hit.t} > truth.onCpu[k] + 1e-3 * truth.extent ? 1 : 0;
         figures.nearer += double{hit.t} < truth.onCpu[k] - 1e-3 * truth.extent ? 1 : 0;
+        raise(figures.beyond, (double{hit.t} - truth.onCpu[k]) / truth.extent);
         raise(figures.apart, std::abs(glm::distance(place, at) - double{hit.t}) / truth.extent);
         SuppleSurfaceJet there;
         ASSERT_TRUE(pose.evaluate({&hit.point, 1}, &there, {})) << "face " << hit.point.face;
@@ -199,8 +200,9 @@ void askForNearest(CrowdContext& own, const cage::Character& character, SuppleSc
 }
 
 void print(SuppleScheme scheme, const NearFigures& own) {
-    std::printf("scheme %u: %u of %u wrong; of the CPU's %u are nearer, %u farther; t %.1e, off %.1e, normal %.1e\n",
-                scheme, own.wrong, own.places, own.farther, own.nearer, own.apart, own.off, own.normal);
+    std::printf("scheme %u: %u of %u wrong; %u nearer than on the CPU, %u farther, by %.1e at most; t %.1e, off %.1e, "
+                "normal %.1e\n",
+                scheme, own.wrong, own.places, own.nearer, own.farther, own.beyond, own.apart, own.off, own.normal);
 }
 
 constexpr double kMostFarther = 0.001;
@@ -225,6 +227,7 @@ TEST_F(NearestPoints, AreAsNearAsDenseSamples) {
         print(scheme, own);
         EXPECT_LE(own.off, 2e-5);
         EXPECT_LE(own.apart, 1e-6);
+        EXPECT_LE(own.beyond, 1e-5);
         EXPECT_LE(own.normal, 1e-2);
         all.wrong += own.wrong;
         all.farther += own.farther;
@@ -242,6 +245,7 @@ TEST_F(NearestPoints, LieOnABentCharacter) {
     print(SUPPLE_SCHEME_PM, own);
     EXPECT_EQ(own.wrong, 0u);
     EXPECT_EQ(own.farther, 0u);
+    EXPECT_LE(own.beyond, 1e-5);
     EXPECT_LE(own.off, 3e-6);
     EXPECT_LE(own.normal, 1e-3);
 }
