@@ -30,7 +30,7 @@ void main() {
         if (k > pieceNumber && leastDistance(place.position, low, high) > sqrt(near.square)) continue;
         loadFrom(other, place.position, c);
         Near found = nearestOf(other.kind, c);
-        if (found.square < near.square) {
+        if (found.square < 0.999999 * near.square) { // else the first of two
             near = found;
             nearest = k;
         }
