@@ -251,7 +251,7 @@ private:
     [[nodiscard]] Result<std::shared_ptr<PointSet>> remadeFor(Group& group, const PointSet& set,
                                                               PointTableBuffer table);
     /// With the pipeline of the format.
-    [[nodiscard]] Result<PointKernels*> kernelsFor(SupplePointFormat format);
+    [[nodiscard]] Result<PointKernels*> kernelsFor(const PointRecipe& recipe);
     void tellDropped(const Remade& remade) const;
     void replacePoints(const Remade& remade);
     void dropPoints(uint64_t group);

@@ -120,6 +120,10 @@ PassCost recordPoints(const Frame& frame, Group& group) {
     return group.recordPoints(frame.dispatches);
 }
 
+PassCost recordVertexPoints(const Frame& frame, Group& group) {
+    return group.recordVertexPoints(frame.dispatches);
+}
+
 PassCost recordBounds(const Frame& frame, Group& group) {
     return group.hasBounds() ? group.recordBounds(frame.dispatches) : PassCost{};
 }
@@ -231,6 +235,9 @@ bool isInView(Group& group) {
 bool hasPoints(Group& group) {
     return !group.points().empty();
 }
+bool hasVertexPoints(Group& group) {
+    return group.points().copyVertices();
+}
 bool hasBounds(Group& group) {
     return group.hasBounds();
 }
@@ -282,7 +289,8 @@ constexpr PassRow kPasses[] = {
     {SUPPLE_PASS_ASSEMBLE, anySurface<&Tessellation::deepens>, recordInRounds<&Tessellation::recordDeepen>},
     {SUPPLE_PASS_ATTRIBUTES, anySurface<&Tessellation::writesLevelAttributes>,
      recordSurface<&Tessellation::recordLevelAttributes>, Behind::directions},
-    {SUPPLE_PASS_EVALUATE, always, recordInRounds<&Tessellation::recordEvaluate>, Behind::scratch},
+    {SUPPLE_PASS_EVALUATE, always, recordInRounds<&Tessellation::recordEvaluate>, Behind::vertices},
+    {SUPPLE_PASS_POINTS, hasVertexPoints, recordVertexPoints, Behind::nothing},
     {SUPPLE_PASS_MOTION, anySurface<&Tessellation::writesMotion>, recordInRounds<&Tessellation::recordMotion>,
      Behind::nothing},
 };
@@ -353,10 +361,11 @@ void recordBarrier(const Frame& frame, Behind behind) {
             frame.computeBarrier();
         }
         break;
-    case Behind::scratch: // evaluate and motion use the same memory
+    case Behind::vertices: // points copy them; evaluate and motion may use the same memory
         if (frame.any([](Group& group) {
-                return group.surfaces().any(
-                    [](const Tessellation& surface) { return surface.writesMotion() && surface.usesScratch(); });
+                return hasVertexPoints(group) || group.surfaces().any([](const Tessellation& surface) {
+                    return surface.writesMotion() && surface.usesScratch();
+                });
             })) {
             frame.computeBarrier();
         }

@@ -56,7 +56,7 @@ struct Frame {
 };
 
 /// What stands behind a pass: who may read what it wrote.
-enum class Behind { nothing, compute, uploads, bounds, sizes, arguments, places, readback, directions, scratch };
+enum class Behind { nothing, compute, uploads, bounds, sizes, arguments, places, readback, directions, vertices };
 
 /// What a pass records: for every group, or for every surface of it. Nothing: it stands for the table of cage stages
 /// (runtime/stages/cage_stages.h).

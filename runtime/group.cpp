@@ -395,7 +395,7 @@ Status Group::createVisibility() {
 }
 
 PointSource Group::pointSource() const {
-    return {device_, &listing_, instances_->cages().buffer(), instances_->cageStride()};
+    return {device_, &listing_, instances_->cages().buffer(), instances_->cageStride(), &surfaces_};
 }
 
 SuppleBufferRange Group::bounds() const {

@@ -168,6 +168,8 @@ public:
     void noteRecorded(uint64_t frame) { lastRecordedFrame_ = frame; }
     /// Behind the deformed cages.
     PassCost recordPoints(gpu::Dispatches& dispatches) { return points_.record(dispatches, passesFrame_, pastStep_); }
+    /// Behind the surface vertices: the points that lie on them.
+    PassCost recordVertexPoints(gpu::Dispatches& dispatches) const { return points_.recordCopies(dispatches); }
     /// If hasBounds().
     PassCost recordBounds(gpu::Dispatches& dispatches) const;
     /// If boundsReadback(): behind the bounds, once they may be copied.

@@ -41,6 +41,7 @@ void Group::freeSurfaces() {
     for (const auto& surface : surfaces_) {
         surface->freeSets();
     }
+    points_.unbindVertices();
     hashes_ = nullptr; // its sets name the buffers
     hashed_.clear();
     surfaceBuffers_.free();
@@ -51,6 +52,7 @@ Status Group::remakeSurfaces() {
     for (const auto& surface : surfaces_) {
         status = status ? surface->remakeSets() : status;
     }
+    status = status ? points_.bindVertices() : status;
     staticsThere_ = false; // buffers are zeroed once more
     return status;
 }

@@ -109,6 +109,15 @@ IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation) {
     return mesh;
 }
 
+std::vector<uint32_t> meshVertices(const Tables& tables, const Evaluation& evaluation, uint32_t patch) {
+    if (!tables.triangles.indices.empty()) {
+        const auto first = tables.triangles.indices.begin() + ptrdiff_t{3} * patch;
+        return {first, first + 3};
+    }
+    const Domain domain = domainOf(tables.rangeOf(patch).patchClass);
+    return verticesOf(tables, evaluation, placesOf(domain, evaluation.rate), patch);
+}
+
 uint64_t gridMeshIndices(const Tables& tables, const Evaluation& evaluation) {
     uint64_t count = 0;
     for (const DrawRange& draw : tables.drawRanges) {

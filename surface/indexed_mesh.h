@@ -29,6 +29,8 @@ struct IndexedMesh {
     std::vector<Range> ranges; ///< in that order
 };
 [[nodiscard]] IndexedMesh indexedMesh(const Tables& tables, const Evaluation& evaluation);
+/// Which surface vertices a patch has, by its samples at the rate; of polygons by the corners of the triangle.
+[[nodiscard]] std::vector<uint32_t> meshVertices(const Tables& tables, const Evaluation& evaluation, uint32_t patch);
 /// The grids of all patches of one instance as one mesh. It shares no sample. A range for each of Tables::drawRanges,
 /// in their order; patch after patch, in the order of gridIndices().
 [[nodiscard]] IndexedMesh gridMesh(const Tables& tables, const Evaluation& evaluation);

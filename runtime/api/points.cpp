@@ -17,8 +17,13 @@ std::optional<Error> faultOf(const SupplePointSetDesc& desc) {
     if (desc.pointCount == 0) {
         return Error{ErrorCode::range, "pointCount is 0"};
     }
-    if (desc.flags != 0 || !within(desc.format, SUPPLE_POINT_DERIVATIVES_32)) {
-        return Error{ErrorCode::range, "flags must be 0, format one of SupplePointFormat"};
+    if ((desc.flags & ~uint32_t{SUPPLE_POINT_SET_ON_VERTICES}) != 0 ||
+        !within(desc.format, SUPPLE_POINT_DERIVATIVES_32)) {
+        return Error{ErrorCode::range, "flags must be SupplePointSetFlags, format one of SupplePointFormat"};
+    }
+    if (desc.flags != 0 && desc.format == SUPPLE_POINT_DERIVATIVES_32) {
+        return Error{ErrorCode::argument, "SUPPLE_POINT_DERIVATIVES_32 has no positions for "
+                                          "SUPPLE_POINT_SET_ON_VERTICES"};
     }
     if (desc.tangents != nullptr && !finite(desc.tangents, 3 * size_t{desc.pointCount})) {
         return Error{ErrorCode::notFinite, "tangents must be finite"};

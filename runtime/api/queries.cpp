@@ -2,7 +2,7 @@
 #include "runtime/api/entry.h"
 #include "supple/supple_queries.h"
 
-#include <utility>
+#include <tuple>
 
 using namespace supple;      // NOLINT
 using namespace supple::api; // NOLINT
@@ -14,8 +14,8 @@ constexpr const char* kRecordQueries = "suppleRecordQueries";
 
 /// What is wrong with a description, but for what its groups are.
 std::optional<Error> faultOf(const Context& context, const SuppleQueryPoolDesc& desc) {
-    if (desc.flags != 0) {
-        return Error{ErrorCode::range, "flags must be 0"};
+    if ((desc.flags & ~uint32_t{SUPPLE_QUERY_POOL_NEAREST}) != 0) {
+        return Error{ErrorCode::range, "flags must be SuppleQueryPoolFlags"};
     }
     if (desc.groups == nullptr || desc.groupCount == 0) {
         return Error{ErrorCode::nullPointer, "groups is null or groupCount is 0"};
@@ -38,8 +38,31 @@ std::optional<Error> faultOf(const Context& context, const SuppleQueryPoolDesc& 
     return std::nullopt;
 }
 
-/// The same of a batch. `most`: rays that the pool is for.
-std::optional<Error> faultOf(const SuppleQueryDesc& desc, uint32_t most) {
+/// The same of what a batch asks with.
+std::optional<Error> faultOfSources(const SuppleQueryDesc& desc, bool findsNearest) {
+    const bool hasPlaces = desc.hostPlaces != nullptr || desc.places.buffer != VK_NULL_HANDLE;
+    const int sources = (desc.hostRays != nullptr ? 1 : 0) + (desc.rays.buffer != VK_NULL_HANDLE ? 1 : 0) +
+                        (desc.hostPlaces != nullptr ? 1 : 0) + (desc.places.buffer != VK_NULL_HANDLE ? 1 : 0);
+    if (desc.rayCount > 0 && sources != 1) {
+        return Error{ErrorCode::nullPointer,
+                     "rays or places must come from hostRays, rays, hostPlaces or places, from one of them"};
+    }
+    const bool hasTriangles = desc.hostTriangles != nullptr || desc.triangles.buffer != VK_NULL_HANDLE;
+    if (hasPlaces && !findsNearest) {
+        return Error{ErrorCode::argument, "places: the pool was created without SUPPLE_QUERY_POOL_NEAREST"};
+    }
+    if (hasPlaces && hasTriangles) {
+        return Error{ErrorCode::argument, "triangles go with rays, not with places"};
+    }
+    if (desc.hostTriangles != nullptr && desc.triangles.buffer != VK_NULL_HANDLE) {
+        return Error{ErrorCode::nullPointer, "triangles must come from hostTriangles or from a buffer, not both"};
+    }
+    return std::nullopt;
+}
+
+/// The same of a batch of a pool.
+std::optional<Error> faultOf(const SuppleQueryDesc& desc, const runtime::QueryPool& pool) {
+    const uint32_t most = pool.rayCount();
     if ((desc.flags & ~uint32_t{SUPPLE_QUERY_READ_BACK}) != 0) {
         return Error{ErrorCode::range, "unknown flags"};
     }
@@ -50,22 +73,26 @@ std::optional<Error> faultOf(const SuppleQueryDesc& desc, uint32_t most) {
         return Error{ErrorCode::range,
                      std::to_string(desc.rayCount) + " rays: the pool is for " + std::to_string(most)};
     }
-    const bool ofDevice = desc.rays.buffer != VK_NULL_HANDLE;
-    if (desc.rayCount > 0 && (desc.hostRays != nullptr) == ofDevice) {
-        return Error{ErrorCode::nullPointer, "rays must come from hostRays or from a buffer, not both"};
+    if (auto fault = faultOfSources(desc, pool.findsNearest())) {
+        return fault;
     }
-    if (desc.hostTriangles != nullptr && desc.triangles.buffer != VK_NULL_HANDLE) {
-        return Error{ErrorCode::nullPointer, "triangles must come from hostTriangles or from a buffer, not both"};
-    }
-    for (const auto& [name, range] : {std::pair("rays", desc.rays), std::pair("triangles", desc.triangles)}) {
-        const bool fits = range.offset % 4 == 0 && range.size / sizeof(SuppleRay) >= desc.rayCount;
+    for (const auto& [name, range, bytes] : {std::tuple("rays", desc.rays, sizeof(SuppleRay)),
+                                             std::tuple("triangles", desc.triangles, sizeof(SuppleTriangleHit)),
+                                             std::tuple("places", desc.places, sizeof(SupplePlace))}) {
+        const bool fits = range.offset % 4 == 0 && range.size / bytes >= desc.rayCount;
         if (range.buffer != VK_NULL_HANDLE && !fits) {
             return Error{ErrorCode::range, std::string(name) + ": the range is too small for " +
                                                std::to_string(desc.rayCount) +
-                                               " rays, or its offset is no multiple of 4"};
+                                               " of them, or its offset is no multiple of 4"};
         }
     }
     return std::nullopt;
+}
+
+/// Whether all that it asks with is the host's.
+bool isOfHost(const SuppleQueryDesc& desc) {
+    return desc.rays.buffer == VK_NULL_HANDLE && desc.triangles.buffer == VK_NULL_HANDLE &&
+           desc.places.buffer == VK_NULL_HANDLE;
 }
 
 /// `body(context, pool)`.
@@ -99,14 +126,14 @@ SuppleResult suppleCreateQueryPool(SuppleContext handle, const SuppleQueryPoolDe
             return report(context, id.error());
         }
         out->id = *id;
-        return SUPPLE_OK;
+        return noted(context, calls::CreateQueryPool{*out, desc});
     });
 }
 
 SuppleResult suppleDestroyQueryPool(SuppleContext handle, SuppleQueryPool pool) {
     return withPool(handle, pool, "suppleDestroyQueryPool", [&](Context& context, runtime::QueryPool& /*found*/) {
         context.destroyQueryPool(pool.id);
-        return SUPPLE_OK;
+        return noted(context, calls::DestroyQueryPool{pool});
     });
 }
 
@@ -128,10 +155,12 @@ SuppleResult suppleRecordQueries(SuppleContext handle, VkCommandBuffer commandBu
             if (const auto fault = takeIn(context, kRecordQueries, "desc", given, desc)) {
                 return *fault;
             }
-            if (const std::optional<Error> fault = faultOf(desc, found.rayCount())) {
+            if (const std::optional<Error> fault = faultOf(desc, found)) {
                 return refuse(context, fault->code, kRecordQueries, fault->message);
             }
-            return reportStatus(context, context.recordQueries(commandBuffer, found, desc));
+            const Status recorded = context.recordQueries(commandBuffer, found, desc);
+            return isOfHost(desc) ? notedIf(context, recorded, calls::RecordQueries{pool, desc})
+                                  : reportStatus(context, recorded);
         });
     });
 }

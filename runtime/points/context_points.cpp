@@ -1,6 +1,7 @@
 // The point sets of a context's groups.
 #include "runtime/context.h"
 #include "runtime/points/point_stencils.h"
+#include "runtime/points/vertex_points.h"
 
 #include <algorithm>
 
@@ -17,6 +18,7 @@ bool haveSameFaces(const cage::Cage& a, const cage::Cage& b) {
 PointRecipe recipeOf(const SupplePointSetDesc& desc) {
     PointRecipe recipe;
     recipe.format = desc.format;
+    recipe.onVertices = (desc.flags & SUPPLE_POINT_SET_ON_VERTICES) != 0;
     recipe.points.assign(desc.points, desc.points + desc.pointCount);
     if (desc.tangents != nullptr) {
         recipe.tangents.assign(desc.tangents, desc.tangents + 3 * size_t{desc.pointCount});
@@ -24,11 +26,21 @@ PointRecipe recipeOf(const SupplePointSetDesc& desc) {
     return recipe;
 }
 
-Result<PointTableBuffer> tableOf(const gpu::Device& device, const CpuGroup& surfaces, const PointRecipe& recipe) {
+Result<PointTableBuffer> tableOf(const gpu::Device& device, const CpuGroup& surfaces, const Group& group,
+                                 const PointRecipe& recipe) {
+    if (recipe.onVertices && group.view() != nullptr) {
+        return Error{ErrorCode::argument, "SUPPLE_POINT_SET_ON_VERTICES: a group of a view has no vertices of all its "
+                                          "instances"};
+    }
     Result<std::vector<uint32_t>> words =
         pointTable(surfaces, recipe.points, recipe.tangents, recipe.format == SUPPLE_POINT_DERIVATIVES_32,
                    std::min(mostTableElements(device), kMostPointElements));
-    return words ? makePointTable(device, std::move(*words)) : words.error();
+    if (!words) {
+        return words.error();
+    }
+    Result<VertexPoints> onVertices = recipe.onVertices ? vertexPoints(surfaces, group.surfaces(), recipe.points)
+                                                        : Result<VertexPoints>(VertexPoints());
+    return onVertices ? makePointTable(device, std::move(*words), std::move(*onVertices)) : onVertices.error();
 }
 
 } // namespace
@@ -57,12 +69,12 @@ Result<uint64_t> Context::createPointSet(const SupplePointSetDesc& desc) {
     if (!surfaces) {
         return refuse(surfaces.error());
     }
-    const Result<PointKernels*> kernels = kernelsFor(desc.format);
+    PointRecipe recipe = recipeOf(desc);
+    const Result<PointKernels*> kernels = kernelsFor(recipe);
     if (!kernels) {
         return refuse(kernels.error());
     }
-    PointRecipe recipe = recipeOf(desc);
-    Result<PointTableBuffer> table = tableOf(*device_, **surfaces, recipe);
+    Result<PointTableBuffer> table = tableOf(*device_, **surfaces, *group, recipe);
     if (!table) {
         return refuse(table.error());
     }
@@ -137,7 +149,7 @@ Result<std::shared_ptr<PointSet>> Context::remadeFor(Group& group, const PointSe
     if (const Status room = PointSet::check(group.pointSource(), set.pointCount(), recipe.format); !room) {
         return room.error();
     }
-    const Result<PointKernels*> kernels = kernelsFor(recipe.format);
+    const Result<PointKernels*> kernels = kernelsFor(recipe);
     if (!kernels) {
         return kernels.error();
     }
@@ -146,7 +158,7 @@ Result<std::shared_ptr<PointSet>> Context::remadeFor(Group& group, const PointSe
         if (!surfaces) {
             return surfaces.error();
         }
-        Result<PointTableBuffer> made = tableOf(*device_, **surfaces, recipe);
+        Result<PointTableBuffer> made = tableOf(*device_, **surfaces, group, recipe);
         if (!made) {
             return made.error();
         }
@@ -155,12 +167,13 @@ Result<std::shared_ptr<PointSet>> Context::remadeFor(Group& group, const PointSe
     return PointSet::create(group.pointSource(), **kernels, recipe, std::move(table), set.group());
 }
 
-Result<PointKernels*> Context::kernelsFor(SupplePointFormat format) {
+Result<PointKernels*> Context::kernelsFor(const PointRecipe& recipe) {
     Result<PointKernels*> kernels = kernels_->points();
     if (!kernels) {
         return kernels;
     }
-    const Status prepared = (*kernels)->prepare(format);
+    Status prepared = (*kernels)->prepare(recipe.format);
+    prepared = prepared && recipe.onVertices ? (*kernels)->prepareCopies(recipe.format) : prepared;
     return prepared ? kernels : prepared.error();
 }
 

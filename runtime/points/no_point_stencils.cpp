@@ -1,6 +1,7 @@
 // For a library that is built with SUPPLE_WITH_CPU=OFF.
 #include "runtime/points/find_points.h"
 #include "runtime/points/point_stencils.h"
+#include "runtime/points/vertex_points.h"
 
 namespace supple::runtime {
 
@@ -14,6 +15,11 @@ Result<std::vector<uint32_t>> pointTable(const CpuGroup& /*group*/, std::span<co
                                          std::span<const float> /*tangents*/, bool /*derivatives*/,
                                          uint64_t /*mostElements*/) {
     return Error{ErrorCode::disabled, "the library has no surface points"}; // without surfaces it is not asked
+}
+
+Result<VertexPoints> vertexPoints(const CpuGroup& /*group*/, const Surfaces& /*surfaces*/,
+                                  std::span<const SuppleSurfacePoint> /*points*/) {
+    return Error{ErrorCode::disabled, "the library has no surface points"};
 }
 
 Status findPoints(const std::shared_ptr<const CpuGroup>& /*group*/, std::shared_ptr<PointFinder>& /*kept*/,

@@ -1,5 +1,6 @@
 #include "runtime/points/point_kernels.h"
 
+#include "shaders/points_on_vertices_comp.h"
 #include "shaders/points_stencils_comp.h"
 #include "shaders/shared/specialization.h"
 
@@ -9,12 +10,15 @@ using namespace supple::shared;
 
 namespace {
 
-static_assert(sizeof(PointPush) <= gpu::kPushConstantBytes);
+static_assert(sizeof(PointPush) <= gpu::kPushConstantBytes && sizeof(VertexPointPush) <= gpu::kPushConstantBytes);
 static_assert(SUPPLE_POINT_FRAME_48 == kPointFrame48 && SUPPLE_POINT_FRAME_64 == kPointFrame64 &&
               SUPPLE_POINT_VERTEX_16 == kPointVertex16 && SUPPLE_POINT_DERIVATIVES_32 == kPointDerivatives32);
 
 constexpr const char* kKernelNames[] = {"supple points, 48 bytes", "supple points, 64 bytes", "supple points, vertices",
                                         "supple points, derivatives"};
+/// Derivatives have no positions.
+constexpr const char* kCopyNames[] = {"supple points on vertices, 48 bytes", "supple points on vertices, 64 bytes",
+                                      "supple points on vertices, vertices"};
 
 } // namespace
 
@@ -34,6 +38,15 @@ Result<PointKernels> PointKernels::create(const gpu::Device& device, gpu::Pipeli
         return layout.error();
     }
     made.layout_ = std::move(*layout);
+    const gpu::Binding copied[] = {
+        gpu::storage(kPointVertexBinding), gpu::storage(kVertexPointBinding),  gpu::storage(kPointBinding),
+        gpu::storage(kPointPastBinding),   gpu::wideStorage(kInstanceBinding), gpu::narrowTexels(kInstanceTexelBinding),
+    };
+    layout = gpu::ComputeLayout::ofShared(device, copied, sizeof(VertexPointPush), "supple points on vertices");
+    if (!layout) {
+        return layout.error();
+    }
+    made.copyLayout_ = std::move(*layout);
     return made;
 }
 
@@ -45,6 +58,24 @@ Status PointKernels::prepare(SupplePointFormat format) {
     }
     kernels_[format] = *kernel;
     return success();
+}
+
+Status PointKernels::prepareCopies(SupplePointFormat format) {
+    const gpu::Constant constants[] = {{kVertexFormatConstant, static_cast<uint32_t>(format)}};
+    const Result<gpu::Kernel> kernel =
+        pipelines_->get(copyLayout_, points_on_vertices_comp, constants, kCopyNames[format]);
+    if (!kernel) {
+        return kernel.error();
+    }
+    copies_[format] = *kernel;
+    return success();
+}
+
+void PointKernels::recordCopies(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SupplePointFormat format,
+                                const VertexPointPush& push) const {
+    const uint64_t lanes = uint64_t{push.entryCount} * push.instanceCount;
+    const uint64_t local = device_->mapping.localSize;
+    dispatches.dispatch(copies_[format], set, push, (lanes + local - 1) / local);
 }
 
 void PointKernels::record(gpu::Dispatches& dispatches, const gpu::BoundSet& set, SupplePointFormat format,

@@ -36,16 +36,23 @@ VkDeviceSize roomOf(const gpu::Device& device) {
 
 } // namespace
 
-Result<PointTableBuffer> makePointTable(const gpu::Device& device, std::vector<uint32_t> words) {
-    auto keeper = std::make_shared<const std::vector<uint32_t>>(std::move(words));
-    const gpu::StaticRequest request{"supple points table",
-                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                                     std::as_bytes(std::span(*keeper)), keeper};
-    Result<gpu::StaticBuffers> made = gpu::StaticBuffers::create(device, {&request, 1});
+Result<PointTableBuffer> makePointTable(const gpu::Device& device, std::vector<uint32_t> words,
+                                        VertexPoints onVertices) {
+    std::vector<gpu::StaticRequest> requests;
+    const auto add = [&](const char* name, VkBufferUsageFlags usage, std::vector<uint32_t> own) {
+        const auto keeper = std::make_shared<const std::vector<uint32_t>>(std::move(own));
+        requests.push_back(
+            {name, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | usage, std::as_bytes(std::span(*keeper)), keeper});
+    };
+    add("supple points table", VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, std::move(words));
+    if (!onVertices.runs.empty()) {
+        add("supple points on vertices", 0, std::move(onVertices.words));
+    }
+    Result<gpu::StaticBuffers> made = gpu::StaticBuffers::create(device, requests);
     if (!made) {
         return made.error();
     }
-    return std::make_shared<gpu::StaticBuffers>(std::move(*made));
+    return std::make_shared<PointTable>(PointTable{std::move(*made), std::move(onVertices.runs)});
 }
 
 uint64_t mostTableElements(const gpu::Device& device) {
@@ -79,6 +86,7 @@ Result<std::shared_ptr<PointSet>> PointSet::create(const PointSource& source, Po
     set->findReaches();
     Status status = set->createBuffers();
     status = status ? set->createSets() : status;
+    status = status && set->recipe_.onVertices ? set->createCopies() : status;
     if (!status) {
         return status.error();
     }
@@ -119,38 +127,63 @@ Status PointSet::createBuffers() {
     return success();
 }
 
+PointSet::Written PointSet::writtenOf(const Reach& reach) const {
+    const VkDeviceSize pointBytes = VkDeviceSize{pointCount()} * bytesOf(recipe_.format),
+                       pastBytes = VkDeviceSize{pointCount()} * kPastBytes,
+                       slot = source_.listing->windows().firstSlot(reach.window) + reach.firstSlot;
+    const AlignedRange points = alignedRange(output_.buffer(0), slot * pointBytes, reach.slotCount * pointBytes);
+    // Formats that have no past never look at it.
+    const AlignedRange pasts =
+        hasPasts() ? alignedRange(output_.buffer(1), slot * pastBytes, reach.slotCount * pastBytes) : points;
+    return {points.info, pasts.info, points.first, pasts.first};
+}
+
+Status PointSet::createCopies() {
+    std::vector<VertexCopies::Target> targets;
+    for (const Reach& reach : reaches_) {
+        const Written written = writtenOf(reach);
+        targets.push_back({written.points, written.pasts, reach.window});
+    }
+    const VkBuffer entries = table_->runs.empty() ? VK_NULL_HANDLE : table_->buffers.buffer(1);
+    copies_.emplace(
+        VertexCopies::Source{source_.device, kernels_, source_.surfaces, source_.listing, entries, table_->runs},
+        std::move(targets));
+    return copies_->bind();
+}
+
+void PointSet::unbindVertices() {
+    if (copies_) {
+        copies_->unbind();
+    }
+}
+
 Status PointSet::createSets() {
     const gpu::Device& device = *source_.device;
     const InstanceWindows& windows = source_.listing->windows();
     const VkBuffer list = source_.listing->buffer().buffer();
     const VkDeviceSize listBytes = source_.listing->passBytes(),
-                       cageBytes = VkDeviceSize{source_.cageStride} * gpu::kVec4Bytes,
-                       pointBytes = VkDeviceSize{pointCount()} * bytesOf(recipe_.format),
-                       pastBytes = VkDeviceSize{pointCount()} * kPastBytes;
+                       cageBytes = VkDeviceSize{source_.cageStride} * gpu::kVec4Bytes;
+    const gpu::StaticBuffers& tables = table_->buffers;
     Status status = sets_.create(device, kernels_->layout(), static_cast<uint32_t>(reaches_.size()), "supple points");
     const auto view = [&](VkBuffer buffer, VkFormat format, VkDeviceSize offset, VkDeviceSize size, const char* name) {
         return views_.make(device, buffer, format, offset, size, name, status);
     };
-    const VkBufferView table = view(table_->buffer(0), gpu::kUint4, 0, table_->size(0), "supple points table");
+    const VkBufferView table = view(tables.buffer(0), gpu::kUint4, 0, tables.size(0), "supple points table");
     const VkBufferView instances = view(list, VK_FORMAT_R32_UINT, 0, listBytes, "supple instances");
     for (size_t r = 0; r < reaches_.size() && status; ++r) {
         Reach& reach = reaches_[r];
-        const VkDeviceSize slot = windows.firstSlot(reach.window) + reach.firstSlot;
-        const AlignedRange points = alignedRange(output_.buffer(0), slot * pointBytes, reach.slotCount * pointBytes);
-        // Formats that have no past never look at it.
-        const AlignedRange pasts =
-            hasPasts() ? alignedRange(output_.buffer(1), slot * pastBytes, reach.slotCount * pastBytes) : points;
-        reach.firstElement = points.first;
-        reach.firstPast = pasts.first;
+        const Written written = writtenOf(reach);
+        reach.firstElement = written.firstElement;
+        reach.firstPast = written.firstPast;
         const VkDeviceSize firstCage = windows.firstSlot(reach.window) * cageBytes,
                            cages = windows.slots(reach.window) * cageBytes;
         const gpu::BoundResource resources[] = {
-            {kPointTableBinding, {table_->buffer(0), 0, table_->size(0)}, VK_NULL_HANDLE},
+            {kPointTableBinding, {tables.buffer(0), 0, tables.size(0)}, VK_NULL_HANDLE},
             {kPointTableTexelBinding, {}, table},
             {kPointCageBinding, {source_.cages, firstCage, cages}, VK_NULL_HANDLE},
             {kPointCageTexelBinding, {}, view(source_.cages, gpu::kFloat4, firstCage, cages, "supple deformed cage")},
-            {kPointBinding, points.info, VK_NULL_HANDLE},
-            {kPointPastBinding, pasts.info, VK_NULL_HANDLE},
+            {kPointBinding, written.points, VK_NULL_HANDLE},
+            {kPointPastBinding, written.pasts, VK_NULL_HANDLE},
             {kInstanceBinding, {list, 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
             {kInstanceTexelBinding, {}, instances},
         };
@@ -169,13 +202,13 @@ void PointSet::fill(SupplePointOutput& out) const {
 
 gpu::MemoryUse PointSet::memoryUse() const {
     gpu::MemoryUse use = output_.use();
-    use += table_->use();
+    use += table_->buffers.use();
     return use;
 }
 
 gpu::TaskNeeds PointSet::taskNeeds() const {
-    const auto reaches = static_cast<uint32_t>(reaches_.size());
-    return {reaches, reaches};
+    const uint32_t sets = static_cast<uint32_t>(reaches_.size()) + (copies_ ? copies_->count() : 0);
+    return {sets, sets};
 }
 
 PointPush PointSet::pushOf(const Reach& reach) const {
@@ -196,13 +229,13 @@ PassCost PointSet::record(gpu::Dispatches& dispatches, uint64_t frame, const glm
     if (staticsPending()) {
         return {};
     }
-    const bool isFirst = first_.due();
+    isFirst_ = first_.due();
     first_.record(frame);
     lastRecordedFrame_ = frame;
     const InstanceWindows& windows = source_.listing->windows();
     for (size_t r = 0; r < reaches_.size(); ++r) {
         PointPush push = pushOf(reaches_[r]);
-        push.isFirst = isFirst ? 1 : 0;
+        push.isFirst = isFirst_ ? 1 : 0;
         push.pastX = pastStep.x;
         push.pastY = pastStep.y;
         push.pastZ = pastStep.z;
@@ -214,22 +247,48 @@ PassCost PointSet::record(gpu::Dispatches& dispatches, uint64_t frame, const glm
     return {points, points * (bytesOf(recipe_.format) + (hasPasts() ? kPastBytes : 0))};
 }
 
+PassCost PointSet::recordCopies(gpu::Dispatches& dispatches) const {
+    if (staticsPending() || !copiesVertices()) {
+        return {};
+    }
+    for (size_t r = 0; r < reaches_.size(); ++r) {
+        const PointPush own = pushOf(reaches_[r]);
+        VertexPointPush push{};
+        push.pointCount = own.pointCount;
+        push.firstInstance = own.firstInstance;
+        push.instanceCount = own.instanceCount;
+        push.firstSlot = own.firstSlot;
+        push.slotCount = own.slotCount;
+        push.firstElement = own.firstElement;
+        push.firstPast = own.firstPast;
+        push.isFirst = isFirst_ ? 1 : 0;
+        if (push.instanceCount > 0) {
+            copies_->record(dispatches, r, recipe_.format, push);
+        }
+    }
+    const uint64_t points = copies_->points() * source_.listing->windows().visible;
+    return {points, points * (sizeof(glm::vec3) + (hasPasts() ? kPastBytes : 0))};
+}
+
 VkDeviceSize PointSet::recordStatics(VkCommandBuffer commandBuffer, uint64_t frame) {
     if (!staticsPending()) {
         return 0;
     }
     lastRecordedFrame_ = frame;
-    return table_->recordStatics(commandBuffer, frame) + clear_.recordStatics(commandBuffer, frame);
+    return table_->buffers.recordStatics(commandBuffer, frame) + clear_.recordStatics(commandBuffer, frame);
 }
 
 void PointSet::recordWarmUp(VkCommandBuffer commandBuffer) const {
     gpu::OwnDispatches dispatches(*source_.device, commandBuffer);
     dispatches->computeBarrier();
     kernels_->record(*dispatches, sets_[0], recipe_.format, {}); // of no instances
+    if (copies_) {
+        copies_->recordWarmUp(*dispatches, recipe_.format);
+    }
 }
 
 void PointSet::cancelFrame(uint64_t frame) {
-    table_->cancelFrame(frame);
+    table_->buffers.cancelFrame(frame);
     clear_.cancelFrame(frame);
     first_.cancelFrame(frame);
 }

@@ -61,6 +61,30 @@ PassCost PointSets::record(gpu::Dispatches& dispatches, uint64_t frame, const gl
     return cost;
 }
 
+bool PointSets::copyVertices() const {
+    bool any = false;
+    forEach([&](const PointSet& set) { any = any || set.copiesVertices(); });
+    return any;
+}
+
+PassCost PointSets::recordCopies(gpu::Dispatches& dispatches) const {
+    PassCost cost;
+    forEach([&](const PointSet& set) { cost += set.recordCopies(dispatches); });
+    return cost;
+}
+
+Status PointSets::bindVertices() {
+    Status status = success();
+    forEach([&](PointSet& set) { status = status ? set.bindVertices() : status; });
+    return status;
+}
+
+void PointSets::unbindVertices() {
+    for (const Entry& entry : sets_) {
+        entry.set->unbindVertices();
+    }
+}
+
 bool PointSets::uploadsPending() const {
     bool pending = false;
     forEach([&](const PointSet& set) { pending = pending || set.staticsPending(); });

@@ -39,6 +39,13 @@ public:
     /// What the sets write that were there when the group was recorded.
     void addTransfers(Transfers& transfers, uint64_t frame) const;
     PassCost record(gpu::Dispatches& dispatches, uint64_t frame, const glm::vec3& pastStep);
+    /// Whether points of some set have the positions of surface vertices.
+    [[nodiscard]] bool copyVertices() const;
+    /// Behind the surface vertices.
+    PassCost recordCopies(gpu::Dispatches& dispatches) const;
+    /// The surfaces have other buffers, or are about to free theirs.
+    [[nodiscard]] Status bindVertices();
+    void unbindVertices();
 
     /// Whether something is due for recordStatics().
     [[nodiscard]] bool uploadsPending() const;

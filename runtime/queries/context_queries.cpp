@@ -20,7 +20,7 @@ constexpr gpu::SyncScope kQueryAll{kQueryWrites.stages, kQueryWrites.access | VK
 QuerySource sourceOf(const std::shared_ptr<Group>& group) {
     const PointSource points = group->pointSource();
     const uint32_t vertices = group->asset().character.cage.vertexCount();
-    return {points.device, points.listing, points.cages, points.cageStride, vertices, &group->surfaces(), group};
+    return {points.device, points.listing, points.cages, points.cageStride, vertices, points.surfaces, group};
 }
 
 /// Lanes own hits by number, and kNothingMet is none.
@@ -70,9 +70,17 @@ Result<std::shared_ptr<QueryGroup>> Context::queryGroup(const std::shared_ptr<Gr
 }
 
 Result<uint64_t> Context::createQueryPool(const SuppleQueryPoolDesc& desc) {
-    Result<std::shared_ptr<QueryPool>> pool = QueryPool::create(*device_, desc.rayCount, framesInFlight_);
+    const bool findsNearest = (desc.flags & SUPPLE_QUERY_POOL_NEAREST) != 0;
+    Result<std::shared_ptr<QueryPool>> pool = QueryPool::create(*device_, desc.rayCount, framesInFlight_, findsNearest);
     if (!pool) {
         return Error{pool.error().code, "suppleCreateQueryPool: " + pool.error().message};
+    }
+    if (findsNearest) {
+        const Result<QueryKernels*> kernels = kernels_->queries();
+        const Status prepared = kernels ? (*kernels)->prepareNearest() : Status(kernels.error());
+        if (!prepared) {
+            return prepared.error();
+        }
     }
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
         const std::shared_ptr<Group> group = groups.find(desc.groups[g].id);
@@ -189,6 +197,7 @@ Status Context::recordQueries(VkCommandBuffer commandBuffer, QueryPool& pool, co
     pool.record(commandBuffer, frame_,
                 {{desc.hostRays, desc.rays.buffer, desc.rays.offset},
                  {desc.hostTriangles, desc.triangles.buffer, desc.triangles.offset},
+                 {desc.hostPlaces, desc.places.buffer, desc.places.offset, sizeof(SupplePlace)},
                  desc.rayCount,
                  (desc.flags & SUPPLE_QUERY_READ_BACK) != 0});
     if (desc.after.stages != 0) {

@@ -160,6 +160,23 @@ void QueryGroup::recordPick(gpu::Dispatches& dispatches, const Batch& batch, uin
     });
 }
 
+void QueryGroup::recordNearest(gpu::Dispatches& dispatches, const Batch& batch, uint32_t work) const {
+    forWindows(batch, [&](const gpu::BoundSet& set, QueryPush push) {
+        push.work = work;
+        if (push.instanceCount > 0 && push.pieceCount > 0) {
+            kernels_->nearest().recordFind(dispatches, set, push);
+        }
+    });
+}
+
+void QueryGroup::recordNearestFinish(gpu::Dispatches& dispatches, const Batch& batch) const {
+    forWindows(batch, [&](const gpu::BoundSet& set, const QueryPush& push) {
+        if (push.instanceCount > 0 || push.writesMisses != 0) {
+            kernels_->nearest().recordFinish(dispatches, set, push);
+        }
+    });
+}
+
 void QueryGroup::recordRefine(gpu::Dispatches& dispatches, const Batch& batch) const {
     const InstanceWindows& windows = source_.listing->windows();
     forWindows(batch, [&](const gpu::BoundSet& set, QueryPush push) {

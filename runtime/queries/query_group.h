@@ -76,6 +76,9 @@ public:
     void recordBoxes(gpu::Dispatches& dispatches, const Batch& batch) const;
     void recordPick(gpu::Dispatches& dispatches, const Batch& batch, uint32_t work) const;
     void recordFinish(gpu::Dispatches& dispatches, const Batch& batch) const;
+    // The same of places whose nearest points are asked for.
+    void recordNearest(gpu::Dispatches& dispatches, const Batch& batch, uint32_t work) const;
+    void recordNearestFinish(gpu::Dispatches& dispatches, const Batch& batch) const;
     /// Hits of triangles, over misses.
     void recordRefine(gpu::Dispatches& dispatches, const Batch& batch) const;
 

@@ -64,8 +64,14 @@ void QueryKernels::recordBoxes(gpu::Dispatches& dispatches, const gpu::BoundSet&
     dispatches.dispatch(boxes_, set, push, (push.instanceCount + local - 1) / local);
 }
 
-void QueryKernels::recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, QueryPush push) const {
-    const uint64_t local = device_->mapping.localSize, lanes = uint64_t{push.pieceCount} * push.instanceCount;
+void QueryKernels::recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
+    recordPieces(dispatches, pick_, set, push);
+}
+
+void QueryKernels::recordPieces(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
+                                QueryPush push) {
+    const uint64_t local = dispatches.device().mapping.localSize,
+                   lanes = uint64_t{push.pieceCount} * push.instanceCount;
     const auto rays =
         static_cast<uint32_t>(std::min<uint64_t>(std::max<uint64_t>(kMostLanes / std::max<uint64_t>(lanes, 1), 1),
                                                  UINT32_MAX / kRaysPerLane) *
@@ -75,7 +81,7 @@ void QueryKernels::recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& 
         push.firstRay = first;
         push.rayCount = first + std::min(rays, end - first);
         const uint64_t blocks = (push.rayCount - first + kRaysPerLane - 1) / kRaysPerLane;
-        dispatches.dispatch(pick_, set, push, (lanes * blocks + local - 1) / local);
+        dispatches.dispatch(kernel, set, push, (lanes * blocks + local - 1) / local);
     }
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr VkDeviceSize kBestBytes = 8;
 /// What vkCmdUpdateBuffer takes at once.
-constexpr uint32_t kRaysPerUpdate = 65536 / sizeof(SuppleRay);
+constexpr VkDeviceSize kBytesPerUpdate = 65536;
 static_assert(sizeof(SuppleRay) == sizeof(SuppleTriangleHit));
 
 constexpr VkPipelineStageFlags2 kCompute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -22,10 +22,11 @@ constexpr gpu::SyncScope kByKernels{kCompute, VK_ACCESS_2_SHADER_STORAGE_READ_BI
 } // namespace
 
 Result<std::shared_ptr<QueryPool>> QueryPool::create(const gpu::Device& device, uint32_t rayCount,
-                                                     uint32_t framesInFlight) {
+                                                     uint32_t framesInFlight, bool findsNearest) {
     auto pool = std::make_shared<QueryPool>();
     pool->owner_ = &device;
     pool->rayCount_ = rayCount;
+    pool->findsNearest_ = findsNearest;
     pool->copies_.resize(framesInFlight + size_t{1});
     constexpr VkBufferUsageFlags kUse = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     const gpu::BufferRequest requests[] = {
@@ -101,26 +102,29 @@ void QueryPool::forAsked(uint32_t rays, F&& record) const {
 void QueryPool::recordCopy(VkCommandBuffer commandBuffer, const Source& source, uint32_t first, uint32_t count) const {
     const gpu::Functions& vk = owner_->vk;
     const VkDeviceSize target = first * sizeof(SuppleRay);
+    const VkDeviceSize bytes = VkDeviceSize{count} * source.elementBytes;
     if (source.host == nullptr) {
-        const VkBufferCopy region{source.offset, target, count * sizeof(SuppleRay)};
+        const VkBufferCopy region{source.offset, target, bytes};
         vk.CmdCopyBuffer(commandBuffer, source.buffer, device_.buffer(0), 1, &region);
         return;
     }
-    for (uint32_t done = 0; done < count; done += kRaysPerUpdate) {
-        vk.CmdUpdateBuffer(commandBuffer, device_.buffer(0), target + done * sizeof(SuppleRay),
-                           std::min(kRaysPerUpdate, count - done) * sizeof(SuppleRay),
-                           static_cast<const std::byte*>(source.host) + done * sizeof(SuppleRay));
+    for (VkDeviceSize done = 0; done < bytes; done += kBytesPerUpdate) {
+        vk.CmdUpdateBuffer(commandBuffer, device_.buffer(0), target + done, std::min(kBytesPerUpdate, bytes - done),
+                           static_cast<const std::byte*>(source.host) + done);
     }
 }
 
+template <class F>
+void QueryPool::recordEach(gpu::Dispatches& dispatches, uint32_t rays, F&& record) const {
+    forAsked(rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
+        record(group, batch);
+        dispatches.disjointBarrier();
+    });
+    dispatches.computeBarrier();
+}
+
 void QueryPool::recordPick(gpu::Dispatches& dispatches, uint32_t rays) const {
-    const auto each = [&](auto&& recordGroup) {
-        forAsked(rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
-            recordGroup(group, batch);
-            dispatches.disjointBarrier();
-        });
-        dispatches.computeBarrier();
-    };
+    const auto each = [&](auto&& record) { recordEach(dispatches, rays, record); };
     each([&](const QueryGroup& group, const QueryGroup::Batch& batch) { group.recordBoxes(dispatches, batch); });
     for (const uint32_t work : {shared::kFindLeast, shared::kFindOwner}) {
         each([&](const QueryGroup& group, const QueryGroup::Batch& batch) {
@@ -146,16 +150,32 @@ void QueryPool::recordRefine(gpu::Dispatches& dispatches, uint32_t rays) const {
     });
 }
 
+void QueryPool::recordNearest(gpu::Dispatches& dispatches, uint32_t places) const {
+    const auto each = [&](auto&& record) { recordEach(dispatches, places, record); };
+    each([&](const QueryGroup& group, const QueryGroup::Batch& batch) { group.recordBoxes(dispatches, batch); });
+    for (const uint32_t work : {shared::kFindBound, shared::kFindLeast, shared::kFindOwner}) {
+        each([&](const QueryGroup& group, const QueryGroup::Batch& batch) {
+            group.recordNearest(dispatches, batch, work);
+        });
+    }
+    forAsked(places, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
+        group.recordNearestFinish(dispatches, batch);
+        dispatches.disjointBarrier();
+    });
+}
+
 void QueryPool::record(VkCommandBuffer commandBuffer, uint64_t frame, const Asked& asked) {
     recordedFrame_ = queriedFrame_ = frame;
-    recordCopy(commandBuffer, asked.rays, 0, asked.count);
+    recordCopy(commandBuffer, asked.places.isThere() ? asked.places : asked.rays, 0, asked.count);
     if (asked.triangles.isThere()) {
         recordCopy(commandBuffer, asked.triangles, rayCount_, asked.count);
     }
     owner_->vk.CmdFillBuffer(commandBuffer, device_.buffer(1), 0, asked.count * kBestBytes, shared::kNothingMet);
     gpu::memoryBarrier(*owner_, commandBuffer, kCopied, kByKernels);
     gpu::SingleDispatches dispatches(*owner_, commandBuffer);
-    if (asked.triangles.isThere()) {
+    if (asked.places.isThere()) {
+        recordNearest(dispatches, asked.count);
+    } else if (asked.triangles.isThere()) {
         recordRefine(dispatches, asked.count);
     } else {
         recordPick(dispatches, asked.count);

@@ -18,8 +18,9 @@ namespace supple::runtime {
 class QueryPool final : public gpu::FrameMember {
 public:
     /// The device must outlive the pool. Groups come by add().
+    /// `findsNearest`: SUPPLE_QUERY_POOL_NEAREST.
     [[nodiscard]] static Result<std::shared_ptr<QueryPool>> create(const gpu::Device& device, uint32_t rayCount,
-                                                                   uint32_t framesInFlight);
+                                                                   uint32_t framesInFlight, bool findsNearest);
 
     /// A group of the pool, by its number.
     struct Member {
@@ -43,20 +44,23 @@ public:
 
     void fill(SuppleQueryOutput& out) const;
     [[nodiscard]] uint32_t rayCount() const { return rayCount_; }
+    [[nodiscard]] bool findsNearest() const { return findsNearest_; }
     [[nodiscard]] uint64_t lastRecordedFrame() const { return recordedFrame_; }
     /// Whether the frame has a batch of it.
     [[nodiscard]] bool hasBatch(uint64_t frame) const { return queriedFrame_ == frame; }
 
-    /// What a batch reads: elements of 32 bytes of the host's, or from a place of a buffer on.
+    /// What a batch reads: elements of the host's, or from a place of a buffer on.
     struct Source {
         const void* host = nullptr;
         VkBuffer buffer = VK_NULL_HANDLE;
         VkDeviceSize offset = 0;
+        uint32_t elementBytes = sizeof(SuppleRay);
 
         [[nodiscard]] bool isThere() const { return host != nullptr || buffer != VK_NULL_HANDLE; }
     };
     struct Asked {
         Source rays, triangles; ///< triangles: what the rays have met, to be refined
+        Source places;          ///< instead of both
         uint32_t count = 0;
         bool readsBack = false;
     };
@@ -96,10 +100,15 @@ private:
     void recordCopy(VkCommandBuffer commandBuffer, const Source& source, uint32_t first, uint32_t count) const;
     void recordPick(gpu::Dispatches& dispatches, uint32_t rays) const;
     void recordRefine(gpu::Dispatches& dispatches, uint32_t rays) const;
+    void recordNearest(gpu::Dispatches& dispatches, uint32_t places) const;
+    /// Calls record(group, batch) for those that are asked, with a barrier behind all.
+    template <class F>
+    void recordEach(gpu::Dispatches& dispatches, uint32_t rays, F&& record) const;
     void recordReadback(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t count);
 
     const gpu::Device* owner_ = nullptr;
     uint32_t rayCount_ = 0;
+    bool findsNearest_ = false;
     gpu::BufferSet device_, readback_;
     std::vector<Member> members_;
     std::vector<Retired> retired_;

@@ -5,6 +5,7 @@
 #include "base/result.h"
 #include "runtime/recording/call_memory.h"
 #include "supple/supple.h"
+#include "supple/supple_queries.h"
 
 #include <algorithm>
 #include <concepts>
@@ -23,7 +24,7 @@ template <class T>
 concept RawNumber = std::is_arithmetic_v<std::remove_const_t<T>> || std::is_enum_v<std::remove_const_t<T>>;
 template <class T>
 concept CallHandle = std::same_as<T, SuppleAsset> || std::same_as<T, SuppleGroup> || std::same_as<T, SuppleView> ||
-    std::same_as<T, SupplePointSet>;
+    std::same_as<T, SupplePointSet> || std::same_as<T, SuppleQueryPool>;
 
 /// In the place of a list's length: its pointer is null.
 inline constexpr uint32_t kNullList = 0xFFFFFFFFu;

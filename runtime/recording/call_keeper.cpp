@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -43,6 +44,12 @@ void CallKeeper::take(const calls::DestroyGroup& call) {
     groups_.erase(call.group.id);
     forget({call.group.id});
     forgetUnused();
+}
+
+void CallKeeper::take(const calls::CreateQueryPool& call) {
+    Pool& pool = pools_[call.pool.id];
+    pool = {sequence_, call.desc, {call.desc.groups, call.desc.groups + call.desc.groupCount}};
+    pool.desc.groups = nullptr;
 }
 
 void CallKeeper::take(const calls::SetTime& call) {
@@ -184,6 +191,9 @@ std::vector<CallKeeper::Told> CallKeeper::collect() const {
             all.push_back({group.sequence, [this, id = id](Recorder& recorder) { tellGroup(recorder, id); }});
         }
     }
+    for (const auto& [id, pool] : pools_) {
+        all.push_back({pool.sequence, [this, id = id](Recorder& recorder) { tellPool(recorder, id); }});
+    }
     for (const auto& [key, kept] : calls_) {
         if (groups_.contains(key.owner.id) && !isTold(key.owner.id)) {
             continue;
@@ -231,6 +241,20 @@ void CallKeeper::tellGroup(Recorder& recorder, uint64_t id) const {
     for (const SuppleInstance& other : others) {
         recorder.note(calls::DestroyInstance{other});
     }
+}
+
+void CallKeeper::tellPool(Recorder& recorder, uint64_t id) const {
+    const Pool& pool = pools_.at(id);
+    std::vector<SuppleGroup> told;
+    std::copy_if(pool.groups.begin(), pool.groups.end(), std::back_inserter(told),
+                 [&](const SuppleGroup& group) { return groups_.contains(group.id) && isTold(group.id); });
+    if (told.empty()) {
+        return;
+    }
+    SuppleQueryPoolDesc desc = pool.desc;
+    desc.groups = told.data();
+    desc.groupCount = static_cast<uint32_t>(told.size());
+    recorder.note(calls::CreateQueryPool{{id}, desc});
 }
 
 void CallKeeper::tell(Recorder& recorder) {

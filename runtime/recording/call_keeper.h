@@ -64,6 +64,11 @@ private:
         uint64_t sequence = 0;
         std::vector<std::byte> bytes;
     };
+    struct Pool {
+        uint64_t sequence = 0;
+        SuppleQueryPoolDesc desc{}; ///< without its groups
+        std::vector<SuppleGroup> groups;
+    };
     /// A version of an asset. Earlier ones stay: poses that were set before the next one name their clips.
     struct Version {
         uint64_t sequence = 0;
@@ -90,6 +95,8 @@ private:
     void take(const calls::DestroyPointSet& call) {
         calls_.erase({{call.group.id}, kCallNumber<calls::CreatePointSet>, call.set.id});
     }
+    void take(const calls::CreateQueryPool& call);
+    void take(const calls::DestroyQueryPool& call) { pools_.erase(call.pool.id); }
     void take(const calls::SetTime& call);
     void take(const calls::SetMask& call);
     void take(const calls::SetCamera& call) { put({{call.view.id}, kCallNumber<calls::SetCamera>}, call); }
@@ -156,6 +163,8 @@ private:
     void forgetUnused();
     [[nodiscard]] std::vector<Told> collect() const;
     void tellGroup(Recorder& recorder, uint64_t id) const;
+    /// With those of its groups that are told; not at all without one.
+    void tellPool(Recorder& recorder, uint64_t id) const;
 
     /// Calls of SetPlayback that are kept of an instance whose transitions begin one in the other.
     static constexpr size_t kMostPlaybacks = 16;
@@ -166,6 +175,7 @@ private:
     std::map<Key, Kept> calls_;
     std::map<uint64_t, Group> groups_;
     std::map<uint64_t, View> views_;
+    std::map<uint64_t, Pool> pools_;
     std::map<uint64_t, std::vector<Version>> assets_;
     std::map<uint64_t, uint64_t> destroyedAssets_, destroyedViews_; ///< still in use: when they were destroyed
 };

@@ -4,6 +4,7 @@
 
 #include "runtime/recording/call_archive.h"
 #include "supple/supple_playback.h"
+#include "supple/supple_queries.h"
 #include "supple/supple_view.h"
 
 #include <array>
@@ -367,6 +368,30 @@ struct SetWind {
         a(c.group, c.wind);
     }
 };
+struct CreateQueryPool {
+    SuppleQueryPool pool{};
+    SuppleQueryPoolDesc desc{};
+    template <class A, class T>
+    static void fields(A& a, T& c) {
+        a(c.pool, c.desc);
+    }
+};
+struct DestroyQueryPool {
+    SuppleQueryPool pool{};
+    template <class A, class T>
+    static void fields(A& a, T& c) {
+        a(c.pool);
+    }
+};
+/// What lies in buffers of the device is the host's, so a recording lacks such batches.
+struct RecordQueries {
+    SuppleQueryPool pool{};
+    SuppleQueryDesc desc{};
+    template <class A, class T>
+    static void fields(A& a, T& c) {
+        a(c.pool, c.desc);
+    }
+};
 
 } // namespace calls
 
@@ -380,7 +405,8 @@ using Call =
                  calls::SetPlayback, calls::SetTime, calls::SetMask, calls::SetModifiers, calls::SetModifierTarget,
                  calls::SetCamera, calls::SetDepthPyramid, calls::SetOrigin, calls::SetUploadBudget, calls::BeginFrame,
                  calls::CancelFrame, calls::RecordUploads, calls::RecordWarmUp, calls::Record, calls::RequestClip,
-                 calls::CreatePointSet, calls::DestroyPointSet, calls::SetWind>;
+                 calls::CreatePointSet, calls::DestroyPointSet, calls::SetWind, calls::CreateQueryPool,
+                 calls::DestroyQueryPool, calls::RecordQueries>;
 
 /// The functions that make them, in the same order.
 inline constexpr std::array<const char*, std::variant_size_v<Call>> kCallNames = {
@@ -394,7 +420,8 @@ inline constexpr std::array<const char*, std::variant_size_v<Call>> kCallNames =
     "suppleSetModifierTarget", "suppleSetCamera",       "suppleSetDepthPyramid",  "suppleSetOrigin",
     "suppleSetUploadBudget",   "suppleBeginFrame",      "suppleCancelFrame",      "suppleRecordUploads",
     "suppleRecordWarmUp",      "suppleRecord",          "suppleRequestClip",      "suppleCreatePointSet",
-    "suppleDestroyPointSet",   "suppleSetWind"};
+    "suppleDestroyPointSet",   "suppleSetWind",         "suppleCreateQueryPool",  "suppleDestroyQueryPool",
+    "suppleRecordQueries"};
 
 /// The place of a type among those of a variant.
 template <class T, class... Types>
@@ -494,6 +521,38 @@ void fields(A& a, T& desc) {
     uint32_t numbers = 3 * desc.pointCount;
     a.list(desc.tangents, numbers);
     a.require(desc.tangents == nullptr || numbers == 3 * uint64_t{desc.pointCount});
+}
+template <class A, CallStruct<SuppleQueryPoolDesc> T>
+void fields(A& a, T& desc) {
+    a.sized(desc);
+    a(desc.flags, desc.rayCount);
+    a.list(desc.groups, desc.groupCount);
+}
+template <class A, CallStruct<SuppleRay> T>
+void fields(A& a, T& ray) {
+    a(ray.origin, ray.tMin, ray.direction, ray.tMax);
+}
+template <class A, CallStruct<SuppleTriangleHit> T>
+void fields(A& a, T& hit) {
+    a(hit.group, hit.surface, hit.slot, hit.geometry, hit.primitive, hit.t);
+}
+template <class A, CallStruct<SupplePlace> T>
+void fields(A& a, T& place) {
+    a(place.position, place.mostDistance);
+}
+template <class A, CallStruct<SuppleQueryDesc> T>
+void fields(A& a, T& desc) {
+    a.sized(desc);
+    a(desc.flags, desc.rayCount);
+    a.list(desc.groups, desc.groupCount);
+    const auto listed = [&](auto& elements) { // null, or one for each ray
+        uint32_t count = desc.rayCount;
+        a.list(elements, count);
+        a.require(elements == nullptr || count == desc.rayCount);
+    };
+    listed(desc.hostRays);
+    listed(desc.hostTriangles);
+    listed(desc.hostPlaces);
 }
 template <class A, CallStruct<SuppleMaskDesc> T>
 void fields(A& a, T& mask) {

@@ -14,6 +14,7 @@ public:
     explicit Direct(const TessellationDesc& desc) : FixedRate(desc) {}
     [[nodiscard]] Status begin();
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_DIRECT; }
+    [[nodiscard]] uint32_t gridRate() const override { return 0; } // nobody stores vertices
     // NOLINTNEXTLINE(bugprone-parent-virtual-call): there are no vertices to bind
     [[nodiscard]] BoundBytes boundBytes() const override { return Tessellation::boundBytes(); }
     [[nodiscard]] Status cutDraws(InstanceWindows& windows, bool byWindows) override;

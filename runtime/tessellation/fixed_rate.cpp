@@ -1,5 +1,9 @@
 #include "runtime/tessellation/fixed_rate.h"
 
+#include "surface/grid.h"
+
+#include <numeric>
+
 namespace supple::runtime {
 
 Status FixedRate::begin() {
@@ -36,6 +40,23 @@ std::vector<SuppleDrawRange> FixedRate::drawsAt(uint32_t rate) const {
     uint32_t firstVertex = 0;
     grids_.append(tables(), canChange() ? rate - 1 : 0, firstVertex, draws);
     return draws;
+}
+
+std::vector<uint32_t> FixedRate::verticesOf(uint32_t patch, uint32_t rate) const {
+    if (rate > maxRate_ || (!canChange() && rate != maxRate_)) {
+        return {};
+    }
+    uint32_t first = 0;
+    for (const surface::DrawRange& range : tables().drawRanges) {
+        const uint32_t samples = surface::sampleCount(range.domain, rate);
+        if (patch - range.firstPatch < range.patchCount) {
+            std::vector<uint32_t> vertices(samples);
+            std::iota(vertices.begin(), vertices.end(), first + (patch - range.firstPatch) * samples);
+            return vertices;
+        }
+        first += range.patchCount * samples;
+    }
+    return {};
 }
 
 Status FixedRate::prepareRate(uint32_t rate) {

@@ -10,6 +10,8 @@ public:
     explicit FixedRate(const TessellationDesc& desc) : OneRate(desc) {}
     [[nodiscard]] Status begin();
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_GRIDS; }
+    [[nodiscard]] uint32_t gridRate() const override { return evaluation_.rate; }
+    [[nodiscard]] std::vector<uint32_t> verticesOf(uint32_t patch, uint32_t rate) const override;
     [[nodiscard]] Status prepareRate(uint32_t rate) override;
     void takeRate() override;
 

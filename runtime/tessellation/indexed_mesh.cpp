@@ -11,6 +11,11 @@ public:
     explicit IndexedMesh(const TessellationDesc& desc) : OneRate(desc) {}
     [[nodiscard]] Status begin();
     [[nodiscard]] SuppleTessellation kind() const override { return SUPPLE_TESSELLATION_INDEXED_MESH; }
+    /// Polygons are drawn as they are.
+    [[nodiscard]] uint32_t gridRate() const override { return isMesh() ? 1 : evaluation_.rate; }
+    [[nodiscard]] std::vector<uint32_t> verticesOf(uint32_t patch, uint32_t rate) const override {
+        return rate == gridRate() ? surface::meshVertices(tables(), evaluation_, patch) : std::vector<uint32_t>();
+    }
     [[nodiscard]] Status prepareRate(uint32_t rate) override;
 };
 

@@ -117,6 +117,10 @@ public:
     virtual void fillLevels(SuppleLevelOutput& /*output*/) const {}
     virtual void fillDirect(SuppleDirectOutput& /*output*/) const {}
     [[nodiscard]] const gpu::PlannedBuffer& patchCoefficients() const { return memory_.patches(); }
+    /// Segments along a patch edge that the surface vertices of all instances have now. 0: there are none at a rate.
+    [[nodiscard]] virtual uint32_t gridRate() const { return 0; }
+    /// The vertices of a patch, by its samples at a gridRate(). Empty: the surface never has that rate.
+    [[nodiscard]] virtual std::vector<uint32_t> verticesOf(uint32_t /*patch*/, uint32_t /*rate*/) const { return {}; }
     /// Null if the index buffer is not its own.
     [[nodiscard]] virtual const SharedIndices* indices() const { return nullptr; }
     virtual void addTransfers(Transfers& transfers, uint64_t frame) const;

@@ -10,6 +10,9 @@
 // A and B are the point's tangent and bitangent of the bind pose, carried along by the deformation. They lie in the
 // tangent plane, and A x B points outwards. In tables of derivatives they are the derivatives by the two numbers of the
 // point.
+//
+// Points on surface vertices (uvec2): the number of the point, and that of the vertex in an instance. They stand together by surface
+// and rate.
 #ifndef SUPPLE_SHARED_POINTS_H
 #define SUPPLE_SHARED_POINTS_H
 
@@ -26,6 +29,8 @@ SUPPLE_SHARED_CONST kPointCageBinding = 2u;
 SUPPLE_SHARED_CONST kPointCageTexelBinding = 3u;
 SUPPLE_SHARED_CONST kPointBinding = 4u;     // what the pass writes for the host
 SUPPLE_SHARED_CONST kPointPastBinding = 5u; // a vec4 for each point: where it was
+SUPPLE_SHARED_CONST kPointVertexBinding = 6u;   // surface vertices
+SUPPLE_SHARED_CONST kVertexPointBinding = 7u;   // the points on them
 
 SUPPLE_SHARED_CONST kPointBlock = 64u;
 
@@ -52,6 +57,22 @@ struct PointPush {
     uint firstPast;            // the same where points were
     uint isFirst;              // 1: no point has a past
     float pastX, pastY, pastZ; // how far the origin of the coordinates has moved since the frame before
+};
+
+// Of points on surface vertices. What has the same name is as above.
+struct VertexPointPush {
+    uint pointCount;
+    uint firstInstance;
+    uint instanceCount;
+    uint firstSlot;
+    uint slotCount;
+    uint firstElement;
+    uint firstPast;
+    uint isFirst;
+    uint firstEntry; // of the surface at its rate
+    uint entryCount;
+    uint instanceWords; // from one instance's vertices to the next
+    uint vertexWords;   // from one vertex to the next
 };
 
 SUPPLE_SHARED_END

@@ -34,8 +34,8 @@ SUPPLE_SHARED_CONST kPieceBinding = 0u;
 SUPPLE_SHARED_CONST kPieceTexelBinding = 1u;
 SUPPLE_SHARED_CONST kQueryCageBinding = 2u;
 SUPPLE_SHARED_CONST kQueryCageTexelBinding = 3u;
-SUPPLE_SHARED_CONST kRayBinding = 4u;      // two vec4 a ray, as SuppleRay has them; then as many a hit, SuppleTriangleHit
-SUPPLE_SHARED_CONST kBestBinding = 5u;     // uvec2 a ray: bits of the least t, then the lane that has it
+SUPPLE_SHARED_CONST kRayBinding = 4u;      // two vec4 a ray, as SuppleRay has them; then as many a hit, SuppleTriangleHit. Or one a place
+SUPPLE_SHARED_CONST kBestBinding = 5u;     // uvec2 a ray or place: bits of the least t, then the lane that has it
 SUPPLE_SHARED_CONST kQueryBoxBinding = 6u; // two vec4 an instance of the list: low, high corner of its cage
 SUPPLE_SHARED_CONST kHitBinding = 7u;      // four uvec4 a ray, as SuppleHit has them
 SUPPLE_SHARED_CONST kTriangleBinding = 8u;
@@ -58,9 +58,10 @@ SUPPLE_SHARED_CONST kSingleTriangles = 0xFFu; // patches that are triangles of t
 SUPPLE_SHARED_CONST kNothingMet = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kRaysPerLane = 16u;
 
-// What a dispatch of the pick kernel does.
+// What a dispatch of the pick kernel does, or of the one that finds nearest points.
 SUPPLE_SHARED_CONST kFindLeast = 0u; // the least t of each ray
 SUPPLE_SHARED_CONST kFindOwner = 1u; // the first lane that has it
+SUPPLE_SHARED_CONST kFindBound = 2u; // nearest points: how near some point must be
 
 struct QueryPush {
     uint pieceCount;

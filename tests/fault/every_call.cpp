@@ -348,6 +348,10 @@ private:
         call("suppleFindPoints", [&] { return suppleFindPoints(handle(), groups_[0], &query, &nearest); });
         desc.group = groups_[1];
         call("suppleCreatePointSet", [&] { return suppleCreatePointSet(handle(), &desc, &set); });
+        desc.group = groups_[0];
+        desc.flags = SUPPLE_POINT_SET_ON_VERTICES;
+        SupplePointSet onVertices{};
+        call("suppleCreatePointSet", [&] { return suppleCreatePointSet(handle(), &desc, &onVertices); });
         call("suppleDestroyPointSet", [&] { return suppleDestroyPointSet(handle(), set); });
 #endif
     }
@@ -361,7 +365,9 @@ private:
         desc.groups = groups;
         desc.groupCount = 2;
         desc.rayCount = 2;
+        desc.flags = SUPPLE_QUERY_POOL_NEAREST;
         call("suppleCreateQueryPool", [&] { return suppleCreateQueryPool(handle(), &desc, &queries_); });
+        call("suppleCreateQueryPool", [&] { return suppleCreateQueryPool(handle(), &desc, &nearest_); });
         get<SuppleQueryOutput>("suppleGetQueryOutput",
                                [&](auto* out) { return suppleGetQueryOutput(handle(), queries_, out); });
         SuppleQueryPool other{};
@@ -379,6 +385,10 @@ private:
         desc.rayCount = 2;
         desc.before = desc.after = kAnyUse;
         call("suppleRecordQueries", [&] { return suppleRecordQueries(handle(), commands, queries_, &desc); });
+        const SupplePlace places[] = {{{0.5f, 1.0f, 9.0f}, 100.0f}, {}};
+        desc.hostRays = nullptr;
+        desc.hostPlaces = places;
+        call("suppleRecordQueries", [&] { return suppleRecordQueries(handle(), commands, nearest_, &desc); });
         SuppleHit hits[2];
         uint32_t count = 2;
         const SuppleResult read = suppleReadHits(handle(), queries_, hits, &count, nullptr);
@@ -689,6 +699,7 @@ private:
         ++frame_;
 #if defined(SUPPLE_WITH_CPU)
         call("suppleDestroyQueryPool", [&] { return suppleDestroyQueryPool(handle(), queries_); });
+        call("suppleDestroyQueryPool", [&] { return suppleDestroyQueryPool(handle(), nearest_); });
 #endif
         for (size_t i = 0; i < kGroups; ++i) {
             call("suppleDestroyInstance", [&] { return suppleDestroyInstance(handle(), instances_[i][0]); });
@@ -715,7 +726,7 @@ private:
     SuppleAsset tube_{}, quad_{};
     SuppleView view_{};
 #if defined(SUPPLE_WITH_CPU)
-    SuppleQueryPool queries_{};
+    SuppleQueryPool queries_{}, nearest_{};
 #endif
     std::array<SuppleGroup, kGroups> groups_{};
     std::array<std::vector<SuppleInstance>, kGroups> instances_;

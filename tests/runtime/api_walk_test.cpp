@@ -2693,7 +2693,11 @@ void points(Rows& r) {
     };
     spoiled("points null", SUPPLE_MESSAGE_NULL_POINTER, [](World&, Desc& d) { d.points = nullptr; });
     spoiled("no points", kRange, [](World&, Desc& d) { d.pointCount = 0; });
-    spoiled("flags", kRange, [](World&, Desc& d) { d.flags = 1; });
+    spoiled("flags", kRange, [](World&, Desc& d) { d.flags = 2; });
+    spoiled("derivatives on vertices", SUPPLE_MESSAGE_CONFLICT, [](World&, Desc& d) {
+        d.flags = SUPPLE_POINT_SET_ON_VERTICES;
+        d.format = SUPPLE_POINT_DERIVATIVES_32;
+    });
     spoiled("format", kRange, [](World&, Desc& d) { d.format = static_cast<SupplePointFormat>(4); });
     spoiled("tangents NaN", SUPPLE_MESSAGE_NOT_FINITE, [](World&, Desc& d) { d.tangents = kBadTangents; });
     spoiled("stale group", SUPPLE_MESSAGE_STALE_HANDLE, [](World& w, Desc& d) { d.group = w.staleGroup; });
@@ -2702,6 +2706,11 @@ void points(Rows& r) {
     r.description<Desc>(kCreate, "desc", desc, create);
     spoiled("outside of the face", kRange, [](World&, Desc& d) { d.points = kOutside; });
     spoiled("no such face", kRange, [](World&, Desc& d) { d.points = kNoFace; });
+    r.accept(kCreate, "on vertices", [=](World& w) {
+        Desc given = desc(w);
+        given.flags = SUPPLE_POINT_SET_ON_VERTICES;
+        return create(w, &given);
+    });
 #endif
     r.nullContext(kDestroy, [](World&, SuppleContext c) { return suppleDestroyPointSet(c, {}); });
     r.nullContext(kOutput, [](World& w, SuppleContext c) {
@@ -2830,6 +2839,7 @@ void queries(Rows& r) {
     const auto desc = [](World& w) {
         Desc made{};
         made.structSize = sizeof(made);
+        made.flags = SUPPLE_QUERY_POOL_NEAREST;
         made.groups = &w.mine.main.group;
         made.groupCount = 1;
         made.rayCount = 4;
@@ -2860,7 +2870,7 @@ void queries(Rows& r) {
             return create(w, &given);
         });
     };
-    spoiled("flags", kRange, [](World&, Desc& d) { d.flags = 1; });
+    spoiled("flags", kRange, [](World&, Desc& d) { d.flags = 2; });
     spoiled("groups null", kNull, [](World&, Desc& d) { d.groups = nullptr; });
     spoiled("no groups", kNull, [](World&, Desc& d) { d.groupCount = 0; });
     spoiled("no rays", kRange, [](World&, Desc& d) { d.rayCount = 0; });
@@ -2965,6 +2975,43 @@ void queries(Rows& r) {
         d.triangles.size = 63;
     });
     spoiledBatch("no rays", kNull, [](World&, Batch& d) { d.hostRays = nullptr; });
+    static constexpr SupplePlace kNearPlaces[] = {{{0, 0, 5}, 100}, {{0, kNan, 0}, 1}};
+    spoiledBatch("rays and places", kNull, [](World&, Batch& d) { d.hostPlaces = kNearPlaces; });
+    spoiledBatch("two kinds of places", kNull, [=](World& w, Batch& d) {
+        d.hostRays = nullptr;
+        d.hostPlaces = kNearPlaces;
+        d.places = bufferOf(w);
+    });
+    spoiledBatch("places with triangles", SUPPLE_MESSAGE_CONFLICT, [=](World& w, Batch& d) {
+        d.hostRays = nullptr;
+        d.hostPlaces = kNearPlaces;
+        d.hostTriangles = w.plain<SuppleTriangleHit>(2);
+    });
+    spoiledBatch("places beyond their range", kRange, [=](World& w, Batch& d) {
+        d.hostRays = nullptr;
+        d.places = bufferOf(w);
+        d.places.size = 31;
+    });
+    const auto nearest = [=] {
+        Batch made = batch();
+        made.hostRays = nullptr;
+        made.hostPlaces = kNearPlaces;
+        return made;
+    };
+    r.refuse(
+        kRecord, "places in a pool for rays", SUPPLE_MESSAGE_CONFLICT,
+        [=](World& w) {
+            Desc ofRays = desc(w);
+            ofRays.flags = 0;
+            SuppleQueryPool pool{};
+            EXPECT_EQ(suppleCreateQueryPool(w.handle(), &ofRays, &pool), SUPPLE_OK);
+            const SuppleResult result = suppleRecordQueries(w.handle(), w.commands, pool, w.kept(nearest()));
+            EXPECT_EQ(suppleDestroyQueryPool(w.handle(), pool), SUPPLE_OK);
+            return result;
+        },
+        Phase::recorded);
+    r.accept(
+        kRecord, "places", [=](World& w) { return record(w, w.kept(nearest())); }, Phase::recorded);
     r.refuse(
         kRecord, "commandBuffer null", kNull,
         [=](World& w) {

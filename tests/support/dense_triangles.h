@@ -5,6 +5,7 @@
 #include "tests/support/found_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
@@ -72,6 +73,21 @@ public:
             }
         }
         return best;
+    }
+
+    /// How far the nearest corner of a triangle is from a place.
+    [[nodiscard]] double nearest(const glm::dvec3& place) const {
+        double best = std::numeric_limits<double>::infinity(); // squared
+        for (const Samples& own : samples_) {
+            const glm::dvec3 off = glm::max(glm::max(own.low - place, place - own.high), 0.0);
+            if (glm::dot(off, off) >= best) {
+                continue;
+            }
+            for (const glm::dvec3& p : own.positions) {
+                best = std::min(best, glm::dot(p - place, p - place));
+            }
+        }
+        return std::sqrt(best);
     }
 
     /// t where a ray meets a triangle, or infinity.

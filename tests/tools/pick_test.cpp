@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace {
 
@@ -67,11 +68,21 @@ TEST_F(Pick, FindsWhatTheDeviceHas) {
         const json nearest = pick("--closest " + textOf(above) + " " + flags);
         EXPECT_LT(distanceOf(position, vectorOf(nearest["position"])), 1e-4);
         EXPECT_NEAR(nearest["distance"].get<double>(), 0.01, 1e-5);
+        // The device finds the same.
+        const json cast = pick("--ray 0.02,0.9,5,0,0,-2 --on-device " + flags),
+                   near = pick("--closest " + textOf(above) + " --on-device " + flags);
+        for (const auto& [own, wanted] : {std::pair(cast, hit), std::pair(near, nearest)}) {
+            EXPECT_LT(distanceOf(vectorOf(own["position"]), vectorOf(wanted["position"])), 1e-5);
+            EXPECT_LT(distanceOf(vectorOf(own["normal"]), vectorOf(wanted["normal"])), 1e-2);
+            EXPECT_EQ(own["partName"], wanted["partName"]);
+            EXPECT_NEAR(own["distance"].get<double>(), wanted["distance"].get<double>(), 1e-5);
+        }
         const json seen = pick("--at 640,480 --yaw 0 --pitch 0 " + flags);
         ASSERT_TRUE(seen.is_object());
         EXPECT_GT(vectorOf(seen["normal"])[2], 0.0);
     }
     EXPECT_TRUE(pick("--ray 0,90,0,0,0,1 --scheme cage").is_null());
+    EXPECT_TRUE(pick("--ray 0,90,0,0,0,1 --scheme cage --on-device").is_null());
     EXPECT_TRUE(pick("--at 3,3 --scheme cage").is_null());
 }
 

@@ -51,6 +51,23 @@ TEST_F(Points, WritesFramesOfTheSurface) {
     }
 }
 
+/// A corner of a face is a surface vertex: it is moved by rounding alone. The other point stays to the bit.
+TEST_F(Points, MayHavePositionsOfVertices) {
+    const char* const given = R"([{"face":3,"u":0,"v":1},{"face":7,"u":0.3,"v":0.3}])";
+    json positions[2];
+    for (const bool onVertices : {false, true}) {
+        const Outcome outcome = points(given, onVertices ? "--scheme pm --on-vertices" : "--scheme pm");
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const json frames = json::parse(readText(file("frames.json")));
+        positions[onVertices ? 1 : 0] = {frames[0]["position"], frames[1]["position"]};
+    }
+    for (size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(positions[0][0][axis].get<double>(), positions[1][0][axis].get<double>(), 1e-6);
+    }
+    EXPECT_EQ(positions[0][1], positions[1][1]);
+    expectFailure(points(given, "--scheme cage --on-vertices"), 1, "needs surface vertices at a rate");
+}
+
 /// Where the file has the triangle's vertices; both triangles of a quad have the same diagonal.
 TEST_F(Points, AreThoseOfTriangles) {
     const Outcome outcome =

@@ -124,6 +124,31 @@ public:
                    ? check(suppleDestroyPointSet(context_, set != r_.pointSets_.end() ? set->second : SupplePointSet{}))
                    : success();
     }
+    Status operator()(const calls::CreateQueryPool& call) {
+        SuppleQueryPoolDesc desc = call.desc;
+        const std::vector<SuppleGroup> groups = r_.own(std::span(call.desc.groups, call.desc.groupCount));
+        desc.groups = groups.data();
+        desc.groupCount = static_cast<uint32_t>(groups.size());
+        return groups.empty() ? success()
+                              : check(suppleCreateQueryPool(context_, &desc, &r_.queryPools_[call.pool.id]));
+    }
+    // Pools of groups that the recording lacks were not made.
+    Status operator()(const calls::DestroyQueryPool& call) {
+        const auto pool = r_.queryPools_.find(call.pool.id);
+        return pool != r_.queryPools_.end() ? check(suppleDestroyQueryPool(context_, pool->second)) : success();
+    }
+    Status operator()(const calls::RecordQueries& call) {
+        const auto pool = r_.queryPools_.find(call.pool.id);
+        SuppleQueryDesc desc = call.desc;
+        const std::vector<SuppleGroup> groups = r_.own(std::span(call.desc.groups, call.desc.groupCount));
+        if (pool == r_.queryPools_.end() || (desc.groups != nullptr && groups.empty())) {
+            return success();
+        }
+        desc.groups = groups.empty() ? nullptr : groups.data();
+        desc.groupCount = static_cast<uint32_t>(groups.size());
+        return withCommands(
+            [&](VkCommandBuffer commands) { return suppleRecordQueries(context_, commands, pool->second, &desc); });
+    }
     Status operator()(const calls::SetCapacity& call) {
         return check(suppleSetCapacity(context_, r_.own(call.group), call.capacity));
     }

@@ -115,6 +115,7 @@ private:
     std::map<uint64_t, View> views_;
     std::map<InstanceKey, SuppleInstance> instances_;
     std::map<uint64_t, SupplePointSet> pointSets_;
+    std::map<uint64_t, SuppleQueryPool> queryPools_;
     std::map<uint64_t, SuppleGroup> recordedGroups_; ///< by own handles
     size_t groupCount_ = 0;
     std::vector<std::string> lacks_;

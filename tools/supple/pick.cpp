@@ -2,6 +2,7 @@
 #include "host/camera.h"
 #include "tools/common/formatted.h"
 #include "tools/supple/command.h"
+#include "tools/supple/device_pick.h"
 #include "tools/supple/output_files.h"
 #include "tools/supple/posed_file.h"
 #include "tools/supple/progress.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -29,6 +31,7 @@ struct PickOptions {
     std::string file, output;        ///< no output: stdout
     std::string ray, pixel, closest; ///< one of them is there
     std::string size = "1280x960";   ///< of the picture that the pixel is of
+    bool onDevice = false;           ///< it is asked, not suppleFindPoints
     double yaw = DrawOptions{}.yaw, pitch = DrawOptions{}.pitch;
     SurfaceFlags surface;
     std::string clip; ///< name or index; empty: the bind pose
@@ -165,23 +168,40 @@ PosedFigure figureOf(const Evaluation& evaluation, const cage::Cage& cage) {
     return figure;
 }
 
-/// Looks for the aim on the group's surfaces, as the frame has deformed them.
-Result<std::optional<Picked>> pick(Session& session, SuppleGroup group, const cage::Character& character,
-                                   const Evaluation& evaluation, const PickOptions& options) {
-    const PosedFigure figure = figureOf(evaluation, character.cage);
-    const Result<Aim> aim = aimOf(options, figure.shown);
-    if (!aim) {
-        return aim.error();
+/// What the device finds. The normal of a hit is turned outwards already.
+Result<std::optional<Picked>> askDevice(Session& session, SuppleGroup group, const Aim& aim) {
+    const std::array<float, 6>& v = aim.values;
+    const SupplePlace place{{v[0], v[1], v[2]}, std::numeric_limits<float>::infinity()};
+    const SuppleRay ray{{v[0], v[1], v[2]}, 0.0f, {v[3], v[4], v[5]}, std::numeric_limits<float>::infinity()};
+    SuppleQueryDesc asked{};
+    asked.hostPlaces = aim.kind == SUPPLE_FIND_NEAREST ? &place : nullptr;
+    asked.hostRays = aim.kind == SUPPLE_FIND_RAY ? &ray : nullptr;
+    const auto hit = pickOnDevice(session, group, asked);
+    if (!hit) {
+        return hit.error();
     }
+    if (!*hit) {
+        return std::optional<Picked>();
+    }
+    Picked picked;
+    picked.point = (*hit)->point;
+    picked.position = vectorOf((*hit)->position);
+    picked.normal = vectorOf((*hit)->normal);
+    return std::optional(picked);
+}
+
+/// What suppleFindPoints finds in the deformed cage.
+Result<std::optional<Picked>> askCpu(Session& session, SuppleGroup group, const Aim& aim,
+                                     const std::vector<glm::vec3>& cage, const Evaluation& evaluation) {
     Picked picked;
     SuppleSurfaceJet jet{};
     SupplePointQuery query{};
     query.structSize = sizeof query;
-    query.kind = aim->kind;
+    query.kind = aim.kind;
     query.count = 1;
-    query.values = aim->values.data();
-    query.cage = &figure.cage[0].x;
-    query.cageVertexCount = static_cast<uint32_t>(figure.cage.size());
+    query.values = aim.values.data();
+    query.cage = &cage[0].x;
+    query.cageVertexCount = static_cast<uint32_t>(cage.size());
     query.jets = &jet;
     const Status found = session.context->check(
         suppleFindPoints(session.context->handle(), group, &query, &picked.point), "suppleFindPoints");
@@ -191,13 +211,29 @@ Result<std::optional<Picked>> pick(Session& session, SuppleGroup group, const ca
     if (picked.point.face == SUPPLE_NO_FACE) {
         return std::optional<Picked>();
     }
-    const cage::Cage& cage = character.cage;
-    picked.part = cage.faceParts.empty() ? 0 : cage.faceParts[picked.point.face];
-    picked.partName = character.parts[picked.part].name;
     picked.position = vectorOf(jet.position);
     picked.normal = normalOf(jet, evaluation.mirroredFaces[picked.point.face] != 0);
-    picked.distance = distanceOf(*aim, picked.position);
     return std::optional(picked);
+}
+
+/// Looks for the aim on the group's surfaces, as the frame has deformed them.
+Result<std::optional<Picked>> pick(Session& session, SuppleGroup group, const cage::Character& character,
+                                   const Evaluation& evaluation, const PickOptions& options) {
+    const PosedFigure figure = figureOf(evaluation, character.cage);
+    const Result<Aim> aim = aimOf(options, figure.shown);
+    if (!aim) {
+        return aim.error();
+    }
+    auto picked =
+        options.onDevice ? askDevice(session, group, *aim) : askCpu(session, group, *aim, figure.cage, evaluation);
+    if (picked && *picked) {
+        const std::vector<uint32_t>& parts = character.cage.faceParts;
+        Picked& own = **picked;
+        own.part = parts.empty() ? 0 : parts[own.point.face];
+        own.partName = character.parts[own.part].name;
+        own.distance = distanceOf(*aim, own.position);
+    }
+    return picked;
 }
 
 Status pickIn(Session& session, const host::CharacterFile& file, const PickOptions& options, const Pose& pose,
@@ -250,6 +286,7 @@ void bindAim(CLI::App& command, PickOptions& options) {
         ->check(numbers<2>("PX,PY"));
     aim->add_option("--closest", options.closest, "The nearest point to a place")->check(numbers<3>("X,Y,Z"));
     aim->require_option(1);
+    command.add_flag("--on-device", options.onDevice, "Let the device look, as suppleRecordQueries does");
     const HelpGroup heading(command, "Camera");
     bindSize(command, "--size", options.size, "With --at: of the picture");
     command.add_option("--yaw", options.yaw, "With --at: degrees; 0 looks at the front")

@@ -26,6 +26,7 @@ using PointsJson = nlohmann::json;
 
 struct PointsOptions {
     std::string file, points, output;
+    bool onVertices = false;
     SurfaceFlags surface;
     std::string clip; ///< name or index; empty: the bind pose
     double time = 0.0;
@@ -170,15 +171,17 @@ Status findGltf(host::Context& context, SuppleGroup group, GivenPoints& given) {
 struct PointSets {
     SupplePointSet frames{}, derivatives{};
 
-    [[nodiscard]] Status create(host::Context& context, SuppleGroup group, const GivenPoints& points) {
+    [[nodiscard]] Status create(host::Context& context, SuppleGroup group, const GivenPoints& points, bool onVertices) {
         SupplePointSetDesc desc{};
         desc.structSize = sizeof desc;
         desc.group = group;
         desc.points = points.points.data();
         desc.pointCount = static_cast<uint32_t>(points.points.size());
         desc.tangents = points.tangents.data();
+        desc.flags = onVertices ? SUPPLE_POINT_SET_ON_VERTICES : 0;
         desc.format = SUPPLE_POINT_FRAME_64;
         Status status = context.check(suppleCreatePointSet(context.handle(), &desc, &frames), "suppleCreatePointSet");
+        desc.flags = 0;
         desc.format = SUPPLE_POINT_DERIVATIVES_32;
         return status
                    ? context.check(suppleCreatePointSet(context.handle(), &desc, &derivatives), "suppleCreatePointSet")
@@ -239,7 +242,7 @@ Status evaluatePoints(Session& session, const host::CharacterFile& file, const P
     const Result<Evaluation> evaluated =
         evaluate(session, *asset, file.character, options.surface, pose, 0, [&](SuppleGroup group) {
             Status found = given.gltf.empty() ? success() : findGltf(*session.context, group, given);
-            return found ? sets.create(*session.context, group, given) : found;
+            return found ? sets.create(*session.context, group, given, options.onVertices) : found;
         });
     if (!evaluated) {
         return evaluated.error();
@@ -286,6 +289,8 @@ void bindPoints(CLI::App& app, int& exitCode) {
     command->add_option("-o,--output", options->output, "JSON: position, normal, tangent, bitangent, du, dv, area")
         ->required()
         ->type_name("OUT.json");
+    command->add_flag("--on-vertices", options->onVertices,
+                      "Points that lie where a surface vertex is have its position, to the bit");
     bindSurface(*command, options->surface, {"cage"});
     bindPose(*command, options->clip, options->time);
     bindMorphs(*command, options->morphs);

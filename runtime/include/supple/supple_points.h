@@ -77,10 +77,18 @@ typedef enum SupplePointFormat {
     SUPPLE_POINT_FORMAT_MAX_ENUM = 0x7FFFFFFF
 } SupplePointFormat;
 
+/** SupplePointSetDesc.flags. */
+typedef enum SupplePointSetFlags {
+    /** Points that lie where a surface vertex is have that vertex's position, to the bit. Other points, and how all are
+     * turned, are as they are without the flag. For groups without a view that keep surface vertices, of any scheme. */
+    SUPPLE_POINT_SET_ON_VERTICES = 1,
+    SUPPLE_POINT_SET_FLAGS_MAX_ENUM = 0x7FFFFFFF
+} SupplePointSetFlags;
+
 /** A set of points. Pointers are needed during the call only. */
 typedef struct SupplePointSetDesc {
     uint32_t structSize;
-    uint32_t flags;                   /**< 0 */
+    uint32_t flags;                   /**< SupplePointSetFlags */
     SuppleGroup group;                /**< whose surfaces the points are on */
     const SuppleSurfacePoint* points; /**< pointCount of them */
     /** Optional: x, y, z per point, the direction of its tangent in the bind pose. What is not in the tangent plane is
@@ -113,14 +121,15 @@ typedef struct SupplePointOutput {
  * The first set of a group takes 10 to 100 ms, as it makes the group's surfaces on the CPU (supple_cpu.h), and the
  * first of a format compiles a pipeline. Then a point takes about 0.01 ms; beside a vertex of many faces 0.001 ms a
  * face. suppleReloadAsset takes the points again. Sharpness that suppleSetSharpness sets is not seen: points have that
- * of the file.
+ * of the file, but for those that have the positions of vertices (SUPPLE_POINT_SET_ON_VERTICES).
  *
- * Errors: a stale handle; no points, flags, a format that does not exist; a face that does not exist or is a hole, a
- * place outside its face (the log names the first such point); tangents that are not finite; what suppleCpuCreateGroup
- * refuses; more points than the device can bind for one instance, or than 32 bits number with all instances; a point
- * that hangs on more than 4096 vertices, or weights of more than 33,554,432 elements (one for each vertex of a point)
- * or than the device binds; memory. SUPPLE_ERROR_UNSUPPORTED if the library was built with SUPPLE_WITH_CPU=OFF.
- * `out->id` is 0 then. */
+ * Errors: a stale handle; no points, unknown flags, a format that does not exist; a face that does not exist or is a
+ * hole, a place outside its face (the log names the first such point); tangents that are not finite; what
+ * suppleCpuCreateGroup refuses; more points than the device can bind for one instance, or than 32 bits number with all
+ * instances; a point that hangs on more than 4096 vertices, or weights of more than 33,554,432 elements (one for each
+ * vertex of a point) or than the device binds; SUPPLE_POINT_SET_ON_VERTICES with SUPPLE_POINT_DERIVATIVES_32, or of a
+ * group without surface vertices at a rate (SUPPLE_SCHEME_CAGE, a view, SUPPLE_GROUP_DIRECT); memory.
+ * SUPPLE_ERROR_UNSUPPORTED if the library was built with SUPPLE_WITH_CPU=OFF. `out->id` is 0 then. */
 SUPPLE_API SuppleResult suppleCreatePointSet(SuppleContext context, const SupplePointSetDesc* desc,
                                              SupplePointSet* out);
 /** Its buffer stays until all frames that may use it are complete. */

@@ -1,0 +1,35 @@
+#include "runtime/queries/nearest_kernels.h"
+
+#include "runtime/queries/query_kernels.h"
+#include "shaders/queries_nearest_comp.h"
+#include "shaders/queries_nearest_finish_comp.h"
+#include "supple/supple_queries.h"
+
+namespace supple::runtime {
+
+static_assert(sizeof(SupplePlace) == 16);
+
+Status NearestKernels::prepare(gpu::Pipelines& pipelines, const gpu::ComputeLayout& layout) {
+    gpu::Pipelines::Batch batch(pipelines);
+    const gpu::Kernel find = batch.get(layout, queries_nearest_comp, {}, "supple queries, nearest"),
+                      finish = batch.get(layout, queries_nearest_finish_comp, {}, "supple queries, nearest points");
+    if (Status made = batch.make(); !made) {
+        return made;
+    }
+    find_ = find;
+    finish_ = finish;
+    return success();
+}
+
+void NearestKernels::recordFind(gpu::Dispatches& dispatches, const gpu::BoundSet& set,
+                                const shared::QueryPush& push) const {
+    QueryKernels::recordPieces(dispatches, find_, set, push);
+}
+
+void NearestKernels::recordFinish(gpu::Dispatches& dispatches, const gpu::BoundSet& set,
+                                  const shared::QueryPush& push) const {
+    const uint64_t local = dispatches.device().mapping.localSize;
+    dispatches.dispatch(finish_, set, push, (push.rayCount + local - 1) / local);
+}
+
+} // namespace supple::runtime
