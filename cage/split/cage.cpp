@@ -169,7 +169,7 @@ Faces recoverFaces(const Mesh& mesh, const Welding& welding, Pairing pairing, Wa
     return faces;
 }
 
-/// UVs and colours; primitives without them count as 0 and white where others have them.
+/// UVs and colors; primitives without them count as 0 and white where others have them.
 void fillCorners(const Mesh& mesh, const Faces& faces, Cage& cage) {
     const auto any = [&](auto member) {
         return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
