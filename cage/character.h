@@ -88,7 +88,7 @@ struct Cage {
     /// Vertices that round the border off if they have one face. Elsewhere such a vertex is a corner.
     /// (SUPPLE_mesh_cage: interpolateBoundary edgeOnly.) Catmull-Clark and Loop follow it.
     std::vector<uint32_t> roundCorners;
-    std::vector<uint32_t> holes; ///< rising: faces that shape their neighbours but are not drawn
+    std::vector<uint32_t> holes; ///< rising: faces that shape their neighbors but are not drawn
 
     [[nodiscard]] uint32_t vertexCount() const { return static_cast<uint32_t>(positions.size()); }
     [[nodiscard]] uint32_t faceCount() const {
