@@ -1,6 +1,13 @@
 #include "cage/character.h"
 
+#include <algorithm>
+
 namespace supple::cage {
+
+uint32_t Cage::faceOf(uint32_t corner) const {
+    const auto next = std::upper_bound(faceStarts.begin(), faceStarts.end(), corner);
+    return static_cast<uint32_t>(next - faceStarts.begin() - 1);
+}
 
 const char* polygonSourceName(PolygonSource source) {
     switch (source) {

@@ -54,7 +54,7 @@ struct SourcePrimitive {
 };
 
 /// A control cage: oriented polygons (counter-clockwise seen from outside) over welded cage vertices.
-/// Attributes stay per corner, so that UV and colour seams survive welding.
+/// Attributes stay per corner, so that UV and color seams survive welding.
 struct Cage {
     std::vector<glm::vec3> positions; ///< one per cage vertex: the rest position
     std::vector<uint32_t> faceStarts; ///< faceCount + 1 entries; corners of face f are [faceStarts[f], faceStarts[f+1])
@@ -88,7 +88,7 @@ struct Cage {
     /// Vertices that round the border off if they have one face. Elsewhere such a vertex is a corner.
     /// (SUPPLE_mesh_cage: interpolateBoundary edgeOnly.) Catmull-Clark and Loop follow it.
     std::vector<uint32_t> roundCorners;
-    std::vector<uint32_t> holes; ///< rising: faces that shape their neighbours but are not drawn
+    std::vector<uint32_t> holes; ///< rising: faces that shape their neighbors but are not drawn
 
     [[nodiscard]] uint32_t vertexCount() const { return static_cast<uint32_t>(positions.size()); }
     [[nodiscard]] uint32_t faceCount() const {
@@ -96,6 +96,8 @@ struct Cage {
     }
     [[nodiscard]] uint32_t cornerCount() const { return static_cast<uint32_t>(faceVertices.size()); }
     [[nodiscard]] uint32_t sides(uint32_t face) const { return faceStarts[face + 1] - faceStarts[face]; }
+    /// The face that has the corner, found by bisection; faceCount() if there is no such corner.
+    [[nodiscard]] uint32_t faceOf(uint32_t corner) const;
 };
 
 /// A scene node. Either TRS or (hasMatrix) a fixed matrix; animated nodes are always TRS.

@@ -65,7 +65,6 @@ public:
     [[nodiscard]] Status status() const { return none() ? success() : Status(Error{ErrorCode::asset, faults_}); }
 
     void cage(const Cage& cage, size_t sourceVertices);
-    void sourceTriangles(const Cage& cage);
     void parts();
     void skeleton();
     void skin();
@@ -128,26 +127,6 @@ void Check::cageCorners(const Cage& cage) {
         }
     }
     require(own, "a triangle has a corner that is none of its face");
-    sourceTriangles(cage);
-}
-
-void Check::sourceTriangles(const Cage& cage) {
-    const std::vector<uint32_t>& corners = cage.sourceTriangles;
-    bool sound = corners.size() % 3 == 0 && belowOrNone(corners, cage.cornerCount());
-    for (size_t t = 0; t + 2 < corners.size() && sound; t += 3) {
-        const auto faceOf = [&](uint32_t corner) {
-            return std::upper_bound(cage.faceStarts.begin(), cage.faceStarts.end(), corner);
-        };
-        sound = faceOf(corners[t]) == faceOf(corners[t + 1]) && faceOf(corners[t]) == faceOf(corners[t + 2]);
-    }
-    require(sound, "a triangle of the file has corners of no one face");
-    uint32_t before = 0;
-    sound = true;
-    for (const SourcePrimitive& own : cage.sourcePrimitives) {
-        sound = sound && own.firstTriangle >= before && own.firstTriangle <= corners.size() / 3;
-        before = own.firstTriangle;
-    }
-    require(sound, "the file's primitives do not divide its triangles");
 }
 
 void Check::cageFaces(const Cage& cage) {

@@ -348,8 +348,7 @@ void reverseSourceTriangles(Cage& cage, std::span<const uint8_t> turned) {
         if (corner == kNone) {
             continue;
         }
-        const auto next = std::upper_bound(cage.faceStarts.begin(), cage.faceStarts.end(), corner);
-        const auto face = static_cast<size_t>(next - cage.faceStarts.begin() - 1);
+        const uint32_t face = cage.faceOf(corner);
         if (turned[face] != 0 && corner != cage.faceStarts[face]) {
             corner = cage.faceStarts[face] + cage.faceStarts[face + 1] - corner;
         }

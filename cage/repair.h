@@ -14,7 +14,7 @@ namespace supple::cage {
 /// Leaves a cage that buildTopology() takes, and that has no T-corners, as it is, bit by bit. In any other one
 ///  - vertices without a face, faces that bound nothing, and faces that are there twice are left out;
 ///  - faces that pass a vertex twice are cut into simple loops;
-///  - vertices of neighbours that lie on a face's edge become corners of the face (cage/repair/t_corners.h);
+///  - vertices of neighbors that lie on a face's edge become corners of the face (cage/repair/t_corners.h);
 ///  - faces turned against those they are joined to are turned round;
 ///  - edges of three and more faces are cut into sheets and become hard creases, vertices of several fans are cut into
 ///    one each and become hard: so what touched goes on touching. The copies come behind all other vertices, in the
@@ -23,7 +23,7 @@ namespace supple::cage {
 /// All other faces keep their order and corners; materials, tiles, holes, creases, influences and displacements follow.
 /// `weights` may be empty (`starts` has no entry): nothing is bound yet.
 ///
-/// A cage of several parts (Cage::faceParts) is repaired as a whole: what one part lacks, its neighbour may have. Each
+/// A cage of several parts (Cage::faceParts) is repaired as a whole: what one part lacks, its neighbor may have. Each
 /// place is named and counted with the part of its first face.
 ///
 /// Adds one entry for each kind of damage and part to `damages`, which begins with the part's name ("mesh 0") and

@@ -6,7 +6,7 @@
 
 namespace supple::cage {
 
-/// The faces of a cage as repairCage() looks at them first: simple, each once, and turned to fit their neighbours. Cuts
+/// The faces of a cage as repairCage() looks at them first: simple, each once, and turned to fit their neighbors. Cuts
 /// nothing. The faces of a cage without damage as they are.
 [[nodiscard]] Polygons soundFaces(const Cage& cage);
 

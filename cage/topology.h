@@ -12,7 +12,7 @@ namespace supple::cage {
 
 /// Corner c of face f at index j is both "vertex F[j] of f" and the half-edge F[j] -> F[j+1].
 ///
-/// The fan of a vertex, counter-clockwise seen from outside: spoke k is an edge neighbour, sector k the face corner
+/// The fan of a vertex, counter-clockwise seen from outside: spoke k is an edge neighbor, sector k the face corner
 /// between spokes k and k+1. Interior vertex of valence n: spokes and sectors 0..n-1, indices mod n, sector 0 at the
 /// smallest corner. Boundary vertex with m faces: spokes 0..m, sectors 0..m-1, spoke 0 has no face on its clockwise
 /// side. Spokes of all vertices are packed by start index; sector k has the slot of spoke k, so the last slot of a

@@ -27,7 +27,7 @@ struct Welding {
     std::vector<uint32_t> roots; ///< per vertex: the smallest vertex of its cage vertex
 };
 
-/// Whether two faces may become neighbours.
+/// Whether two faces may become neighbors.
 using MayJoin = std::function<bool(uint32_t face, uint32_t other)>;
 
 /// `candidates` numbers the sets of vertices that may become one; `faces` are in vertices. Edges are sewn whose two

@@ -118,7 +118,7 @@ private:
         return T(end.own) * spoke(j) - T(end.other) * other;
     }
 
-    /// Q_j: the mean of the corners of facet j that are not the vertex or its neighbours; of a triangle, of these.
+    /// Q_j: the mean of the corners of facet j that are not the vertex or its neighbors; of a triangle, of these.
     [[nodiscard]] Point farMean(uint32_t j) const {
         const uint32_t corner = mesh_.topology.sectorCorners[spokeSlot(j)];
         const uint32_t facet = mesh_.topology.cornerFaces[corner];

@@ -90,7 +90,7 @@ Status Context::check(SuppleResult result, const char* call) {
 Status Context::createInstances(SuppleGroup group, uint32_t count, std::vector<SuppleInstance>& out) {
     out.resize(count);
     for (SuppleInstance& instance : out) {
-        const Status status = check(suppleCreateInstance(context_, group, &instance), "suppleCreateInstance");
+        Status status = check(suppleCreateInstance(context_, group, &instance), "suppleCreateInstance");
         if (!status)
             return status;
     }

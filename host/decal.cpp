@@ -168,7 +168,7 @@ private:
         return along(jet.duu) + 2.0f * along(jet.duv) + along(jet.dvv);
     }
 
-    /// Calls visit(i, j) for the neighbours of a node along the grid's lines.
+    /// Calls visit(i, j) for the neighbors of a node along the grid's lines.
     template <class F>
     void forEachBeside(uint32_t i, uint32_t j, F&& visit) const {
         if (i > 0)

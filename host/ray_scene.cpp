@@ -137,7 +137,7 @@ Status RayGroup::readSurfaces(Context& context, SuppleGroup group, uint32_t surf
     for (uint32_t surface = 0; surface < surfaces; ++surface) {
         SuppleRayGeometry from{};
         from.structSize = sizeof from;
-        const Status status =
+        Status status =
             context.check(suppleGetRayGeometry(context.handle(), group, surface, &from), "suppleGetRayGeometry");
         if (!status)
             return status;

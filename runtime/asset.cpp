@@ -96,7 +96,7 @@ Status Asset::findExtra(skinning::SkinExtra extra) {
     if (prepared->extras.has(extra) || ownExtras.has(extra)) {
         return success();
     }
-    const Status found = ownExtras.find(character, extra);
+    Status found = ownExtras.find(character, extra);
     if (found) {
         noteLate(extra == skinning::SkinExtra::centers ? "the centers of rotation"
                                                        : "the smoothed weights of delta mush");

@@ -74,7 +74,7 @@ Status InstanceSet::takeSprings() {
 }
 
 Status InstanceSet::takeSoft() {
-    const Status made = desc_.asset->makeSoft(*desc_.device);
+    Status made = desc_.asset->makeSoft(*desc_.device);
     desc_.room.soft = desc_.asset->isSoft();
     desc_.room.cloths = desc_.asset->cloths.count > 0;
     return made;

@@ -48,7 +48,7 @@ glm::vec4 lightSpring(float drag) {
 struct Constraint {
     Pair pair;
     double length = 0.0, compliance = 0.0;
-    uint32_t colour = 0;
+    uint32_t color = 0;
 };
 struct Tether {
     uint32_t anchor = kClothFree;
@@ -79,7 +79,7 @@ public:
     /// `head`: where the cloth's record stands.
     void put(uint32_t head) {
         putVertices(head);
-        putColours(head);
+        putColors(head);
         if (own_.volume) {
             putVolume(head);
         }
@@ -101,7 +101,7 @@ public:
         }
         uint32_t substep = roundsOf(count()) * (2 + countOf(own_.colliders)) + roundsOf(countOf(triangles_)) +
                            *std::max_element(faces.begin(), faces.end()) + (own_.volume ? kVolumeRounds : 0);
-        for (const uint32_t size : colourSizes()) {
+        for (const uint32_t size : colorSizes()) {
             substep += 1 + roundsOf(size);
         }
         return own_.substeps * substep + *std::max_element(deformed.begin(), deformed.end());
@@ -128,7 +128,7 @@ private:
         std::copy(words.begin(), words.end(), table_.words.begin() + 4 * static_cast<ptrdiff_t>(element));
     }
 
-    /// Colours are greedy, in the order of the list: the first that neither end has.
+    /// Colors are greedy, in the order of the list: the first that neither end has.
     void findConstraints() {
         const auto add = [&](const std::vector<Pair>& pairs, float compliance) {
             for (const Pair& pair : pairs) {
@@ -142,24 +142,24 @@ private:
         for (Constraint& constraint : constraints_) {
             std::vector<bool>&a = used[constraint.pair[0]], &b = used[constraint.pair[1]];
             const auto has = [&](const std::vector<bool>& of) {
-                return constraint.colour < of.size() && of[constraint.colour];
+                return constraint.color < of.size() && of[constraint.color];
             };
             while (has(a) || has(b)) {
-                ++constraint.colour;
+                ++constraint.color;
             }
             for (std::vector<bool>* const of : {&a, &b}) {
-                of->resize(std::max<size_t>(of->size(), constraint.colour + 1));
-                (*of)[constraint.colour] = true;
+                of->resize(std::max<size_t>(of->size(), constraint.color + 1));
+                (*of)[constraint.color] = true;
             }
-            colourCount_ = std::max(colourCount_, constraint.colour + 1);
+            colorCount_ = std::max(colorCount_, constraint.color + 1);
         }
         std::stable_sort(constraints_.begin(), constraints_.end(),
-                         [](const Constraint& a, const Constraint& b) { return a.colour < b.colour; });
+                         [](const Constraint& a, const Constraint& b) { return a.color < b.color; });
     }
-    [[nodiscard]] std::vector<uint32_t> colourSizes() const {
-        std::vector<uint32_t> sizes(colourCount_, 0);
+    [[nodiscard]] std::vector<uint32_t> colorSizes() const {
+        std::vector<uint32_t> sizes(colorCount_, 0);
         for (const Constraint& constraint : constraints_) {
-            ++sizes[constraint.colour];
+            ++sizes[constraint.color];
         }
         return sizes;
     }
@@ -211,11 +211,11 @@ private:
             put({0u, 0u, 0u, 0u});
         }
     }
-    void putColours(uint32_t head) {
-        const uint32_t colours = next();
-        set(head + 1, {colourCount_, colours, 0u, 0u});
-        uint32_t first = colours + colourCount_;
-        for (const uint32_t size : colourSizes()) {
+    void putColors(uint32_t head) {
+        const uint32_t colors = next();
+        set(head + 1, {colorCount_, colors, 0u, 0u});
+        uint32_t first = colors + colorCount_;
+        for (const uint32_t size : colorSizes()) {
             put({first, first + size, 0u, 0u});
             first += size;
         }
@@ -322,7 +322,7 @@ private:
     std::vector<glm::dvec3> positions_;
     std::vector<double> mobility_; ///< inverse masses
     std::vector<Constraint> constraints_;
-    uint32_t colourCount_ = 0;
+    uint32_t colorCount_ = 0;
     std::vector<Tether> tethers_;
     std::vector<std::array<uint32_t, 3>> triangles_; ///< of faces, if their volume is kept
     double volume_ = 0.0;                            ///< six times

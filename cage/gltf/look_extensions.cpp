@@ -50,9 +50,11 @@ public:
 
     void name(Warnings& warnings) const {
         for (const auto& [name, place] : met_) {
-            const std::string more =
-                place.count == 1 ? "" : ", here and in " + counted(place.count - 1, "other place", "other places");
-            warn(warnings, place.first, name + " is not read" + more + instead(name));
+            std::string text = name + " is not read";
+            if (place.count > 1) {
+                text.append(", here and in ").append(counted(place.count - 1, "other place", "other places"));
+            }
+            warn(warnings, place.first, text.append(instead(name)));
         }
     }
 

@@ -185,7 +185,8 @@ private:
             for (const Json& joint : itemsIn(from, "joints")) {
                 fault = fault ? fault : readJoint(joint, spring);
             }
-            return keep(std::move(spring), fault ? fault : chainFault(spring));
+            fault = fault ? fault : chainFault(spring);
+            return keep(std::move(spring), fault);
         });
     }
 

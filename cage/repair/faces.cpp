@@ -66,7 +66,7 @@ private:
     std::vector<uint32_t> places_; ///< per vertex: in open_
 };
 
-/// Each face's vertices from the smallest one on, towards the smaller of its two neighbours.
+/// Each face's vertices from the smallest one on, towards the smaller of its two neighbors.
 std::vector<uint32_t> canonicalFaces(const Draft& draft) {
     std::vector<uint32_t> canonical;
     canonical.reserve(draft.cornerCount());

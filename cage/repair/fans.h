@@ -13,7 +13,7 @@ struct FanDamage {
 
 /// Gives every fan of faces a vertex of its own: the one with the lowest corner keeps the vertex, each other one gets a
 /// copy. Copies come in the order of the vertices, then of the fans' lowest corners. A vertex of several fans becomes a
-/// hard one unless cut edges explain them, so that the fans go on touching there. Where a fan passes a neighbour twice,
+/// hard one unless cut edges explain them, so that the fans go on touching there. Where a fan passes a neighbor twice,
 /// so that two edges would have the same ends, it is cut into two fans: `twins` changes so that each of these closes.
 ///
 /// `twins` joins sides that run against each other. `atCut`: per vertex, see SheetDamage. O(corners).

@@ -28,10 +28,10 @@ struct FoldDamage {
 void dissolveFolds(const Cage& cage, Draft& draft, std::vector<uint32_t> twins, const Places& places,
                    FoldDamage& damage);
 
-/// How far a vertex may be from the line between its two neighbours, in parts of that line's length.
+/// How far a vertex may be from the line between its two neighbors, in parts of that line's length.
 inline constexpr float kMostBend = 0.2f;
 
-/// Merging faces may leave their neighbours with two faces, and so on: after so many rounds these are cut apart.
+/// Merging faces may leave their neighbors with two faces, and so on: after so many rounds these are cut apart.
 inline constexpr int kMaxFoldRounds = 16;
 
 } // namespace supple::cage::repair

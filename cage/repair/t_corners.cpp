@@ -214,7 +214,7 @@ private:
     }
     [[nodiscard]] size_t partOf(uint32_t face) const { return places_.partOf(draft_.faces[face]); }
 
-    /// The neighbour's corner at a T-corner: of the side's own part if one of the two neighbours there is.
+    /// The neighbor's corner at a T-corner: of the side's own part if one of the two neighbors there is.
     [[nodiscard]] std::pair<uint32_t, uint32_t> faceAndCorner(const SplitSide& side, size_t i) const {
         const SplitSide::Link &before = side.chain[i], &behind = side.chain[i + 1];
         const bool takeBehind = partOf(before.face) != partOf(side.face) && partOf(behind.face) == partOf(side.face);
@@ -368,7 +368,7 @@ private:
         return cage_.cornerCount() - 1;
     }
 
-    /// The neighbours' own if they have one normal there and the edge is smooth at both ends: so shading goes on across
+    /// The neighbors' own if they have one normal there and the edge is smooth at both ends: so shading goes on across
     /// it. Else what the face has.
     void addNormal(const SplitSide& side, size_t i) {
         std::vector<glm::vec3>& normals = cage_.cornerNormals;

@@ -1,4 +1,4 @@
-// T-corners: vertices of a face's neighbours that lie on the face's edge. Private to cage/repair.
+// T-corners: vertices of a face's neighbors that lie on the face's edge. Private to cage/repair.
 #pragma once
 
 #include "cage/repair/draft.h"

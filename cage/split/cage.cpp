@@ -169,7 +169,7 @@ Faces recoverFaces(const Mesh& mesh, const Welding& welding, Pairing pairing, Wa
     return faces;
 }
 
-/// UVs and colours; primitives without them count as 0 and white where others have them.
+/// UVs and colors; primitives without them count as 0 and white where others have them.
 void fillCorners(const Mesh& mesh, const Faces& faces, Cage& cage) {
     const auto any = [&](auto member) {
         return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
@@ -310,7 +310,7 @@ private:
     static constexpr size_t kMostFaces = 64;
     struct Corner {
         uint32_t root = 0, face = 0, corner = 0;
-        auto operator<=>(const Corner&) const = default;
+        auto operator<=>(const Corner&) const = default; // NOLINT(modernize-use-nullptr): clang-tidy 14 sees a 0 here
     };
     [[nodiscard]] std::span<const Corner> cornersAt(uint32_t root) const {
         const auto first = std::lower_bound(corners_.begin(), corners_.end(), Corner{root, 0, 0});

@@ -49,7 +49,7 @@ float movedApart(const Mesh& mesh, uint32_t a, uint32_t b) {
     return farthest;
 }
 
-/// The vertices that `seams` sews, in runs: neighbours are in one.
+/// The vertices that `seams` sews, in runs: neighbors are in one.
 class SeamRuns {
 public:
     SeamRuns(const Mesh& mesh, const Polygons& faces, const Welding& seams)

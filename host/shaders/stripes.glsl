@@ -33,9 +33,9 @@ float amongStripes(uint view, vec3 position, vec3 n) {
     }
 }
 
-/// Where this pixel is among them, and how far away its neighbours are. A derivative of amongStripes() would not do: pixels beside
+/// Where this pixel is among them, and how far away its neighbors are. A derivative of amongStripes() would not do: pixels beside
 /// the triangle help to take derivatives, and lavapipe reads zeros for them from storage buffers, which the frame is in. So only
-/// what is interpolated is derived, and this pixel looks at the stripes for its neighbours.
+/// what is interpolated is derived, and this pixel looks at the stripes for its neighbors.
 vec2 stripesAt(uint view, vec3 position, vec3 n) {
     float at = amongStripes(view, position, n);
     vec2 apart = vec2(amongStripes(view, position + dFdx(position), n + dFdx(n)),

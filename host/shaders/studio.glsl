@@ -42,7 +42,7 @@ float lightVisibility(uint light, vec3 position) {
 /// Noise needs passes that take it away, and many directions.
 bool areCones() { return frame.pass != 0u && frame.softShadows == 0.0; }
 
-/// What differs from neighbour to neighbour and from pass to pass: interleaved gradient noise (Jimenez, SIGGRAPH 2014) and the
+/// What differs from neighbor to neighbor and from pass to pass: interleaved gradient noise (Jimenez, SIGGRAPH 2014) and the
 /// plane's most even sequence (Roberts, 2018). xy: a direction; z: from 0 to 1.
 vec3 pixelNoise(vec2 pixel) {
     vec2 at = floor(pixel) + 5.588238 * float(frame.pass);

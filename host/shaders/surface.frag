@@ -127,7 +127,7 @@ void main() {
         if ((push.flags & kDrawCoverage) != 0u)
             covered = suppleTrimCoverage(trim, materialData.cutoff);
     }
-    // All that asks for neighbouring pixels is done: some may end here.
+    // All that asks for neighboring pixels is done: some may end here.
     float opacity = materialHas(kMaterialTranslucent) ? base.a : 1.0;
     if (isLeftOut(opacity * (1.0 - layers.transmission)) || isOtherSide(back))
         discard;

@@ -112,7 +112,7 @@ Status BoundsKernels::make(bool rates) const {
 Status BoundsKernels::prepare() {
     gpu::Pipelines::Batch batch(*pipelines_);
     const Kernels found = kernels(batch);
-    const Status made = batch.make();
+    Status made = batch.make();
     kernels_ = made ? found : kernels_;
     return made;
 }
@@ -120,7 +120,7 @@ Status BoundsKernels::prepare() {
 Status BoundsKernels::prepareRates() {
     gpu::Pipelines::Batch batch(*pipelines_);
     const RateKernels found = rateKernels(batch);
-    const Status made = batch.make();
+    Status made = batch.make();
     rateKernels_ = made ? found : rateKernels_;
     return made;
 }

@@ -94,8 +94,7 @@ Result<SuppleSurfacePoint> findOne(const cage::Cage& cage, const std::vector<Tri
     if (corners[0] == cage::kNone) {
         return kNoPoint;
     }
-    const auto next = std::upper_bound(cage.faceStarts.begin(), cage.faceStarts.end(), corners[0]);
-    const auto face = static_cast<uint32_t>(next - cage.faceStarts.begin() - 1);
+    const uint32_t face = cage.faceOf(corners[0]);
     if (std::binary_search(cage.holes.begin(), cage.holes.end(), face)) {
         return kNoPoint;
     }

@@ -3,7 +3,6 @@
 #include "runtime/context.h"
 #include "runtime/queries/triangle_faces.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace supple::runtime {
@@ -151,10 +150,8 @@ void Context::replaceQueries(const Remade& remade) {
 
 Status Context::askGroups(QueryPool& pool, const SuppleQueryDesc& desc) const {
     for (QueryPool::Member& member : pool.members()) {
-        const Group* const group = member.group != nullptr ? groups.at(member.id) : nullptr;
-        member.isAsked = desc.groups == nullptr && group != nullptr && group->askedFrame() == frame_;
-        member.isEmpty = group != nullptr && group->waitsIn(frame_);
-        member.rate = group != nullptr ? rateOf(group->surfaces()) : 1;
+        member.isAsked =
+            desc.groups == nullptr && member.group != nullptr && groups.at(member.id)->askedFrame() == frame_;
     }
     for (uint32_t g = 0; g < desc.groupCount; ++g) {
         const std::string name = "suppleRecordQueries: group " + std::to_string(g);
@@ -167,9 +164,16 @@ Status Context::askGroups(QueryPool& pool, const SuppleQueryDesc& desc) const {
         }
         member->isAsked = true;
     }
-    const auto members = pool.members();
-    return std::any_of(members.begin(), members.end(), [](const QueryPool::Member& own) { return own.isAsked; })
-               ? success()
+    bool any = false;
+    for (QueryPool::Member& member : pool.members()) {
+        if (member.isAsked) { // another thread may record the others
+            const Group& group = *groups.at(member.id);
+            member.isEmpty = group.waitsIn(frame_);
+            member.rate = rateOf(group.surfaces());
+            any = true;
+        }
+    }
+    return any ? success()
                : Status(
                      Error{ErrorCode::order, "suppleRecordQueries: no suppleRecord of this frame has a group of it"});
 }
@@ -193,6 +197,9 @@ Status Context::recordQueries(VkCommandBuffer commandBuffer, QueryPool& pool, co
     {
         const std::scoped_lock lock(uploading_);
         pool.recordStatics(commandBuffer, frame_);
+        for (QueryPool::Member& member : pool.members()) { // pools may have pieces in common
+            member.isEmpty = member.isEmpty || (member.isAsked && member.group->staticsPending());
+        }
     }
     pool.record(commandBuffer, frame_,
                 {{desc.hostRays, desc.rays.buffer, desc.rays.offset},

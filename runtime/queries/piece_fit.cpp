@@ -10,16 +10,16 @@ namespace {
 
 using Coefficients = std::array<double, shared::kPieceCoefficients>;
 
-/// The points that a polynomial goes through, in the order of its coefficients.
-std::vector<glm::dvec2> pointsOf(bool isSquare) {
+/// Calls visit(k, place) for the points that a polynomial goes through, in the order of its coefficients.
+template <class F>
+void forPoints(bool isSquare, F&& visit) {
     const uint32_t along = isSquare ? 3 : 4;
-    std::vector<glm::dvec2> points;
+    size_t k = 0;
     for (uint32_t j = 0; j <= along; ++j) {
         for (uint32_t i = 0; i <= (isSquare ? along : along - j); ++i) {
-            points.push_back(glm::dvec2(i, j) / static_cast<double>(along));
+            visit(k++, glm::dvec2(i, j) / static_cast<double>(along));
         }
     }
-    return points;
 }
 
 /// What coefficients have of a place.
@@ -55,15 +55,6 @@ void toCubic(double& a, double& b, double& c, double& d) {
     b = first;
 }
 
-VertexShares& sharesOf(uint32_t vertex, std::vector<VertexShares>& all) {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const VertexShares& own) { return own.vertex == vertex; });
-    if (found != all.end()) {
-        return *found;
-    }
-    return all.emplace_back(VertexShares{vertex, {}});
-}
-
 /// Where the polynomial is compared with the surface.
 constexpr std::array<glm::dvec2, 4> kSquareChecks{
     {{0.5, 0.5}, {1.0 / 6, 5.0 / 6}, {5.0 / 6, 1.0 / 2}, {1.0 / 6, 1.0 / 6}}};
@@ -71,15 +62,14 @@ constexpr std::array<glm::dvec2, 4> kTriangleChecks{{{0.375, 0.375}, {0.125, 0.6
 
 } // namespace
 
-PieceFitter::PieceFitter(const CpuGroup& group) : group_(group) {
+PieceFitter::PieceFitter(const CpuGroup& group) : group_(group), numbers_(group.cage().vertexCount()) {
     // The inverse of the basis at the points, by Gauss and Jordan.
     std::array<std::array<double, 2 * kQuartic>, kQuartic> rows{};
-    const std::vector<glm::dvec2> points = pointsOf(false);
-    for (size_t r = 0; r < kQuartic; ++r) {
-        const Coefficients basis = basisAt(false, points[r]);
+    forPoints(false, [&](size_t r, const glm::dvec2& at) {
+        const Coefficients basis = basisAt(false, at);
         std::copy_n(basis.begin(), kQuartic, rows[r].begin());
         rows[r][kQuartic + r] = 1.0;
-    }
+    });
     for (size_t column = 0; column < kQuartic; ++column) {
         size_t pivot = column;
         for (size_t r = column + 1; r < kQuartic; ++r) {
@@ -113,9 +103,10 @@ const std::vector<PieceFitter::Weight>& PieceFitter::weightsAt(const FacePart& p
     }
     const CpuGroup::Found found = group_.find(point);
     const CpuGroup::Part& of = group_.parts()[found.part];
-    cpu::PointWeights weights;
-    of.surface->weigh(found.place.place, weights);
-    for (const cpu::VertexWeight& entry : weights.entries()) {
+    weights_.clear();
+    of.surface->weigh(found.place.place, weights_);
+    own.reserve(weights_.entries().size());
+    for (const cpu::VertexWeight& entry : weights_.entries()) {
         own.push_back({of.piece != nullptr ? of.piece->of.vertices[entry.vertex] : entry.vertex, entry.position});
     }
     return own;
@@ -144,18 +135,23 @@ Coefficients PieceFitter::coefficientsOf(bool isSquare, const Coefficients& valu
 double PieceFitter::errorOf(const FacePart& part, const PieceFit& fit) {
     double error = 0.0;
     for (const glm::dvec2& at : part.isSquare ? kSquareChecks : kTriangleChecks) {
-        std::vector<VertexShares> differences;
+        numbers_.clear();
+        differences_.clear();
+        const auto add = [&](uint32_t vertex, double share) {
+            const uint32_t number = numbers_.of(vertex);
+            differences_.resize(std::max<size_t>(differences_.size(), number + size_t{1}), 0.0);
+            differences_[number] += share;
+        };
         for (const Weight& weight : weightsAt(part, at)) {
-            sharesOf(weight.vertex, differences).of[0] += weight.share;
+            add(weight.vertex, weight.share);
         }
         const Coefficients basis = basisAt(part.isSquare, at);
         for (const VertexShares& own : fit.vertices) {
-            sharesOf(own.vertex, differences).of[0] -=
-                std::inner_product(basis.begin(), basis.end(), own.of.begin(), 0.0);
+            add(own.vertex, -std::inner_product(basis.begin(), basis.end(), own.of.begin(), 0.0));
         }
         double sum = 0.0;
-        for (const VertexShares& own : differences) {
-            sum += std::abs(own.of[0]);
+        for (const double difference : differences_) {
+            sum += std::abs(difference);
         }
         error = std::max(error, sum);
     }
@@ -164,12 +160,16 @@ double PieceFitter::errorOf(const FacePart& part, const PieceFit& fit) {
 
 PieceFit PieceFitter::fit(const FacePart& part) {
     PieceFit fit;
-    const std::vector<glm::dvec2> points = pointsOf(part.isSquare);
-    for (size_t k = 0; k < points.size(); ++k) {
-        for (const Weight& weight : weightsAt(part, points[k])) {
-            sharesOf(weight.vertex, fit.vertices).of[k] += weight.share;
+    numbers_.clear();
+    forPoints(part.isSquare, [&](size_t k, const glm::dvec2& at) {
+        for (const Weight& weight : weightsAt(part, at)) {
+            const uint32_t number = numbers_.of(weight.vertex);
+            if (number == fit.vertices.size()) {
+                fit.vertices.push_back({weight.vertex, {}});
+            }
+            fit.vertices[number].of[k] += weight.share;
         }
-    }
+    });
     for (VertexShares& own : fit.vertices) {
         own.of = coefficientsOf(part.isSquare, own.of);
     }

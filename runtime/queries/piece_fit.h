@@ -1,6 +1,7 @@
 // A part of a face as one polynomial of the cage's vertices.
 #pragma once
 
+#include "cpu/point_weights.h"
 #include "runtime/cpu_group.h"
 #include "runtime/queries/face_parts.h"
 #include "shaders/shared/queries.h"
@@ -21,6 +22,33 @@ struct PieceFit {
     std::vector<VertexShares> vertices;
     /// The most that weights differ by in sum, at places between those that the polynomial goes through.
     double error = 0.0;
+};
+
+/// Numbers vertices in the order in which they come.
+class VertexNumbers {
+public:
+    explicit VertexNumbers(size_t vertexCount) : numbers_(vertexCount, kNone) {}
+
+    /// The vertex' number: the next one, if it comes for the first time.
+    uint32_t of(uint32_t vertex) {
+        if (numbers_[vertex] == kNone) {
+            numbers_[vertex] = static_cast<uint32_t>(vertices_.size());
+            vertices_.push_back(vertex);
+        }
+        return numbers_[vertex];
+    }
+    void clear() {
+        for (const uint32_t vertex : vertices_) {
+            numbers_[vertex] = kNone;
+        }
+        vertices_.clear();
+    }
+
+private:
+    static constexpr uint32_t kNone = ~0u;
+
+    std::vector<uint32_t> numbers_;  ///< by vertex
+    std::vector<uint32_t> vertices_; ///< that have a number
 };
 
 /// Finds the polynomial that goes through 16 points of a square, or 15 of a triangle.
@@ -46,6 +74,9 @@ private:
     coefficientsOf(bool isSquare, const std::array<double, shared::kPieceCoefficients>& values) const;
 
     const CpuGroup& group_;
+    VertexNumbers numbers_;                                          ///< of the part that is looked at
+    std::vector<double> differences_;                                ///< by number
+    cpu::PointWeights weights_;                                      ///< of the point that is looked at
     uint32_t face_ = SUPPLE_NO_FACE;                                 ///< whose points are kept
     std::map<std::array<float, 3>, std::vector<Weight>> known_;      ///< by side and place
     std::array<std::array<double, kQuartic>, kQuartic> toQuartic_{}; ///< from values at points

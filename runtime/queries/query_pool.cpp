@@ -91,7 +91,7 @@ void QueryPool::forAsked(uint32_t rays, F&& record) const {
             continue;
         }
         batch.group = static_cast<uint32_t>(&member - members_.data());
-        batch.isEmpty = member.isEmpty || member.group->staticsPending();
+        batch.isEmpty = member.isEmpty;
         batch.rate = member.rate;
         record(*member.group, batch);
         batch.firstLane += batch.isEmpty ? 0 : member.group->lanes();

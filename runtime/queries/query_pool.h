@@ -27,7 +27,7 @@ public:
         uint64_t id = 0;                   ///< of the group
         std::shared_ptr<QueryGroup> group; ///< null: it was destroyed
         bool isAsked = false;              ///< by the batch that is recorded
-        bool isEmpty = false;              ///< the frame has left it out
+        bool isEmpty = false;              ///< the frame has left it out, or it waits for its uploads
         uint32_t rate = 1;                 ///< of its grids and meshes
     };
     [[nodiscard]] std::span<Member> members() { return members_; }

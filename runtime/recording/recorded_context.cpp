@@ -52,7 +52,7 @@ Status Context::startRecording(const SuppleRecordingDesc& desc) {
     const std::vector<AskedClip> asked = askedClips();
     noteState(*recorder, asked);
     if (recorder->hasHashes()) {
-        if (const Status made = makeHashes(); !made) {
+        if (Status made = makeHashes(); !made) {
             return made;
         }
     }
@@ -77,7 +77,7 @@ Status Context::makeHashes() {
     std::shared_ptr<StageHashes> hashes = groupsHashes_.lock();
     if (hashes == nullptr) {
         const Result<HashKernels*> kernels = kernels_->hashes();
-        const Status prepared = kernels ? (*kernels)->prepare() : kernels.error();
+        Status prepared = kernels ? (*kernels)->prepare() : kernels.error();
         if (!prepared) {
             return prepared;
         }

@@ -42,7 +42,7 @@ Status HashKernels::prepare() {
     gpu::Pipelines::Batch batch(*pipelines_);
     const gpu::Kernel slots = batch.get(layout_, recording_words_comp, {}, "supple hashes");
     const gpu::Kernel records = batch.get(layout_, recording_records_comp, {}, "supple hashes of a view");
-    const Status status = batch.make();
+    Status status = batch.make();
     if (status) {
         slots_ = slots;
         records_ = records;
@@ -169,7 +169,7 @@ void StageHashes::Recording::end() {
 
 Status HashedParts::create(std::span<const HashedPart> parts, VkBuffer list) {
     const auto count = static_cast<uint32_t>(std::max<size_t>(1, parts.size() * windows_->count()));
-    const Status status = sets_.create(*device_, hashes_->layout(), count, "supple hashes");
+    Status status = sets_.create(*device_, hashes_->layout(), count, "supple hashes");
     for (size_t n = 0; n < parts.size() && status; ++n) {
         for (uint32_t w = 0; w < windows_->count() && parts[n].words != VK_NULL_HANDLE; ++w) {
             write(placeOf(n, w), parts[n], w, list);

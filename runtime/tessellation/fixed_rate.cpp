@@ -71,7 +71,7 @@ Status FixedRate::prepareRate(uint32_t rate) {
         return Error{ErrorCode::argument, name + ": the triangles that are traced are made for rate " +
                                               std::to_string(built_.askedRate) + " alone"};
     }
-    const Status takes = canChange() ? checkRate(rate, maxRate_ << tables().isolationSteps) : success();
+    Status takes = canChange() ? checkRate(rate, maxRate_ << tables().isolationSteps) : success();
     if (!takes || !canChange() || patchRate(rate) == evaluation_.rate) {
         return takes; // the attributes stand
     }

@@ -12,7 +12,7 @@ namespace supple::runtime {
 using namespace supple::shared;
 
 Status OwnVertices::setVertexCount(uint64_t vertices) {
-    if (const Status fits = checkVertices(vertices); built_.outputs.streams.has(Stream::vertices) && !fits) {
+    if (Status fits = checkVertices(vertices); built_.outputs.streams.has(Stream::vertices) && !fits) {
         return fits;
     }
     constexpr uint32_t kAttributeBytes = kStreams[static_cast<size_t>(Stream::attributes)].bytes;

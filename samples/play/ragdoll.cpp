@@ -170,7 +170,7 @@ void Ragdoll::bendKnee(Point thigh, Point shin, Point foot) {
     const float behind = -glm::dot(ahead, points_[shin] - points_[thigh]);
     if (behind <= 0.0f)
         return;
-    // What the knee gets, its neighbours lose: a push from nowhere would make the body jump.
+    // What the knee gets, its neighbors lose: a push from nowhere would make the body jump.
     const float part = 0.2f * behind;
     points_[shin] += part * ahead;
     points_[thigh] -= 0.5f * part * kBody[shin].mass / kBody[thigh].mass * ahead;

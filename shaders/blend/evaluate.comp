@@ -186,7 +186,7 @@ void evaluatePatch(const PatchPlace at, uint lodRecord) {
 const uint kLocalStride = kParts;
 shared vec4 localElements[kLines ? 1u : kMaxPatchesPerGroup * kLocalStride];
 #else
-const uint kLocalStride = kRegular ? kWideBlendElements : kParts; // an odd number keeps neighbouring faces in different banks
+const uint kLocalStride = kRegular ? kWideBlendElements : kParts; // an odd number keeps neighboring faces in different banks
 shared vec4 localElements[kLanePatch ? 1u : kRegular ? SUPPLE_WIDE_ELEMENTS(kVertexFormat) : kMaxPatchesPerGroup * kLocalStride];
 #endif
 

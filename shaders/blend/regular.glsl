@@ -3,7 +3,7 @@
 // samples is added up first. A sample of the row is then the blend of two quadratics.
 //
 // On a border only two corners count. Positions there come from their own coefficients, by the sums of blend.glsl, so that all
-// classes of faces agree bit for bit. Inside no neighbour looks, and positions are seen from the first corner.
+// classes of faces agree bit for bit. Inside no neighbor looks, and positions are seen from the first corner.
 // Needs tables.glsl, frame.glsl, shared/blend.h and hermite() of blend.glsl.
 
 // A parameter t of the face with what depends on it alone: 1 - t, eta of both, and eta'(t), which is eta'(1 - t) as well.

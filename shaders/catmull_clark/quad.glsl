@@ -61,7 +61,7 @@ vec3[4] sideCubic(const PatchPlace at, IrregularQuad quad, uint side) {
 vec3 onCubic(vec3 g[4], uint side, vec2 pair) {
     return sum4(bernstein3(side < 2u ? pair : pair.yx), g[0], g[1], g[2], g[3]);
 }
-// Inside a quad no neighbour looks: a sum there need not read the same backwards.
+// Inside a quad no neighbor looks: a sum there need not read the same backwards.
 vec3 sumInside(vec4 w, vec3 a, vec3 b, vec3 c, vec3 d) {
     precise vec3 r = w.x * a;
     r = fma(vec3(w.y), b, r);

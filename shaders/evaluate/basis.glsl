@@ -1,5 +1,5 @@
 // Bernstein weights and reversal-symmetric sums: what makes shared borders agree bit for bit (docs/prep.md).
-// A neighbour may run along a border in the opposite direction: then its pair is the swapped pair and its coefficients
+// A neighbor may run along a border in the opposite direction: then its pair is the swapped pair and its coefficients
 // stand in the reverse order, and every expression here gives the same bits. `precise` stands on every local, because it
 // stops at function boundaries.
 

@@ -1,8 +1,8 @@
 // Bicubic patches at levels: samples lie where the patch's record says instead of at i / rate (docs/lod.md). The four sides of a patch
 // have levels of their own, and so have samples inside. So a patch is a number of lines: its sides, each from one corner up to the
 // next, and those that run across it inside, from which two mirrored samples are made at once. A lane of the narrow mapping goes
-// through all lines of a patch, one of the wide mapping takes a line. Lines inside run along v, so that neighbouring lanes store
-// neighbouring samples; those of polar patches run along u, as their derivatives need it.
+// through all lines of a patch, one of the wide mapping takes a line. Lines inside run along v, so that neighboring lanes store
+// neighboring samples; those of polar patches run along u, as their derivatives need it.
 const bool kColumns = !kPolar;
 
 void storeSample(const PatchPlace at, uint own, vec3 position, Frame frame) {

@@ -2,7 +2,7 @@
 
 // The coefficients of a workgroup's patches: of every corner its point, tangent, next tangent and face coefficient (of a polar
 // patch's last corner the point and what is behind it), then the perturbation's, four an edge. One element more keeps the same
-// one of neighbouring patches in different banks.
+// one of neighboring patches in different banks.
 const uint kLocalStride = kPerturbed ? kWidePerturbedNetElements : kWideNetElements;
 shared vec4 localElements[kLanePatch ? 1u : SUPPLE_WIDE_ELEMENTS(kVertexFormat)]; // positions of samples as well, when these are done with
 

@@ -29,7 +29,7 @@ PentagonPlace pentagonPlace(uint sector, vec3 l) {
 }
 
 float[5] pentagonWeights(uint sector, vec3 l) {
-    // Along a side only its ends count, so that neighbours agree in every bit.
+    // Along a side only its ends count, so that neighbors agree in every bit.
     bool inside = l.z > 0.0;
     PentagonPlace place = pentagonPlace(sector, l);
     vec2 p = place.at, q = 1.0 - p;

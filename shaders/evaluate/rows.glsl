@@ -1,8 +1,8 @@
 // Samples of a bicubic patch: the patch is collapsed in v to rows, and a row is sampled in u. Needs basis.glsl, frame.glsl and
 // kClass.
 //
-// Positions on borders come from the coefficients as they are, by the sums of basis.glsl, so that neighbours agree bit for bit.
-// Inside a patch no neighbour looks. There a row is made of offsets from the first corner, and a sample of halves that mirrored
+// Positions on borders come from the coefficients as they are, by the sums of basis.glsl, so that neighbors agree bit for bit.
+// Inside a patch no neighbor looks. There a row is made of offsets from the first corner, and a sample of halves that mirrored
 // samples share. Derivatives come from offsets everywhere: far from the origin that keeps normals many times more exact.
 const bool kPerturbed = kClass == kPerturbedPatch;
 const bool kPolar = kClass == kPolarPatch;

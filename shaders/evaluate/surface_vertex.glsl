@@ -70,7 +70,7 @@ void storeSurfaceVertex(uint vertex, uint own, vec3 position, Frame f) {
     storeTangent(vertex, own, f);
 }
 
-// The same in two steps: the normal's words, and their storing by another lane. Where a vertex takes two stores, neighbouring
+// The same in two steps: the normal's words, and their storing by another lane. Where a vertex takes two stores, neighboring
 // lanes do one each.
 const uint kNormalWords = kVertexFormat == kVertex16 ? 1u : kVertexFormat == kVertex24 ? 3u : 0u;
 const uint kVertexStores = kVertexFormat == kVertex24 ? 2u : 1u;

@@ -1,6 +1,6 @@
 // Bicubic patches at a rate, of which a lane has a whole one in registers: in the narrow mapping, and in the wide one where a rate has
-// patches enough for all lanes of a GPU (kLanePatch). There the samples of a row pass through workgroup memory, so that neighbouring
-// lanes store neighbouring ones.
+// patches enough for all lanes of a GPU (kLanePatch). There the samples of a row pass through workgroup memory, so that neighboring
+// lanes store neighboring ones.
 #ifdef WIDE
 layout(constant_id = kLanePatchConstant) const bool kLanePatch = false;
 // Lanes keep their rows an odd number of elements apart: then they do not meet in one bank.

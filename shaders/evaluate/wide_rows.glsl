@@ -1,6 +1,6 @@
 // The wide mapping of patches at a rate whose samples are cheaper by rows: a lane a row, in registers. Lanes load the parts of patches
 // into workgroup memory before. As these are not needed any more then, positions take their place on their way to be stored by
-// neighbouring lanes side by side.
+// neighboring lanes side by side.
 //
 // Before the include, beside what harness.glsl needs:
 //   kRowParts, localElements      parts a patch; workgroup memory for SUPPLE_WIDE_ELEMENTS(kVertexFormat) elements

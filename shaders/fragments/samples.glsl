@@ -11,7 +11,7 @@ vec3 derivativeTowards(uint turns, vec3 axis, vec3 beside) {
     return (turns & 2u) == 0u ? d : -d;
 }
 
-// Limit position and frame of a point off the centre, from its neighbours counter-clockwise from its axis on. `right`: the sector
+// Limit position and frame of a point off the centre, from its neighbors counter-clockwise from its axis on. `right`: the sector
 // lies right of the axis.
 void limitPoint(vec3 c, vec3 p[8], float sharpness, bool right, uint turns, out vec3 position, out Frame frame) {
     precise vec3 limit, along, across, axis;

@@ -110,8 +110,8 @@ uint centreSample() {
 
 #if defined(WIDE) && !defined(LEVELS)
 layout(constant_id = kLanePatchConstant) const bool kLanePatch = false;
-// Where there is room for the samples of all patches, they pass through workgroup memory, so that neighbouring lanes store
-// neighbouring ones.
+// Where there is room for the samples of all patches, they pass through workgroup memory, so that neighboring lanes store
+// neighboring ones.
 const uint kSectorPatches = kPatchLanes / kSides, kRows = kInterior ? kRate - 1u : kRate;
 const uint kGridSide = kInterior ? kRate - 1u : kRate + 1u, kTriangleSide = kInterior ? kRate - 2u : kRate + 1u;
 const uint kPatchSamples = kClass == kP5Patch ? 5u * (kRows * (kRows + 1u) / 2u) + 1u

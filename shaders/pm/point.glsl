@@ -1,6 +1,6 @@
 // The sample of a sector (docs/pm.md). Needs sector.glsl, basis.glsl and frame.glsl.
 //
-// Inside a patch no neighbour looks. There a sample is summed up of halves: sums and differences of the coefficients that are
+// Inside a patch no neighbor looks. There a sample is summed up of halves: sums and differences of the coefficients that are
 // mirrored if the sector's corners swap. The samples of (x, y, z) and (y, x, z) have them in common.
 
 // Of 400 and 040, 310 and 130, 301 and 031, 211 and 121, 202 and 022, 103 and 013, less the centre. The last two even ones are 220

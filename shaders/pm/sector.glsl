@@ -24,7 +24,7 @@ struct SectorSide {
     vec3 o211, o121, p112;
 };
 
-// The sector of a side between its neighbours; ray: the weights of (3), of the ray's own point and of either side's.
+// The sector of a side between its neighbors; ray: the weights of (3), of the ray's own point and of either side's.
 Sector makeSector(vec2 ray, vec3 centre, SectorSide last, SectorSide own, SectorSide next) {
     Sector s;
     s.centre = centre;

@@ -11,7 +11,7 @@
 //
 // Cloths' table (uvec4 elements): kClothHeadElements for every cloth, then what these say. Floats are as bits.
 //   head       (vertices; how many of them hang on joints, the first ones; the first one's element; state elements of each);
-//              (colours; the first one's element; faces whose volume is kept, or 0; the first one's element);
+//              (colors; the first one's element; faces whose volume is kept, or 0; the first one's element);
 //              (colliders; the first one's element; substeps; where its state begins in an instance's run);
 //              (seconds of a substep; speed kept in one; lost to the air in one; the farthest that a vertex goes in one);
 //              (substeps a second; speed by gravity in one; six times the rest volume; by how much that gives, over the square of seconds);
@@ -20,7 +20,7 @@
 //   vertex     kClothVertexElements: (cage vertex; inverse mass, 0: it hangs; the vertex of the cloth that it is tethered to or
 //              kClothFree; the tether's length); (where it comes to rest, from where joints have it in the rest pose; 0);
 //              (the first of the faces around it, the end; 0, 0)
-//   colour     (its first constraint, the end; 0, 0): no vertex is in two of them
+//   color      (its first constraint, the end; 0, 0): no vertex is in two of them
 //   constraint (two vertices of the cloth; their distance at rest; 1 / (inverse masses + compliance over the square of seconds))
 //   face       (three vertices of the cloth; 0); around a vertex: (the other two, in the face's order; 0, 0)
 //   collider   kColliderElements, as springs have them (shaders/shared/pose.h), but it hangs on a joint of the skin, or is kClothFree, and

@@ -15,9 +15,9 @@
 //                      has 16 bits if that is enough for all (kHalfWords), else a word (kWholeWords). The exact schemes have
 //                      stencils, too, and the blending surface where its cage takes a step of subdivision first
 //   pattern rows       one element a point, 16 bits a source: s0..s6 and rule | (spoke + 1) << 2
-//   neighbours         one element a point, 8 x 16 bits
-//   limit rows         two elements a sample: 8 neighbours x 16 bits; (point, spoke + 1, sector | turns from the first
-//                      neighbour to the sector's first edge << kTurnShift | kRightSide, sample of the sector); those that no strip
+//   neighbors         one element a point, 8 x 16 bits
+//   limit rows         two elements a sample: 8 neighbors x 16 bits; (point, spoke + 1, sector | turns from the first
+//                      neighbor to the sector's first edge << kTurnShift | kRightSide, sample of the sector); those that no strip
 //                      holds come first
 //   row lists          one word a point of a level: pattern rows that no cell makes, rising
 //   cells              one element a cell, 16 bits each: the points it makes (kNoTarget: none), and its own
@@ -29,11 +29,11 @@
 //                      kNoPatch; [sector][fragment] mask elements
 //   centre steps       [step][fragment] elements: (smooth, crease, first spoke, second spoke); of classes with sharpness
 //   class headers      (fragments, sectors | flags, net, sharpness), (patches, masks, centre steps, 0), (weight of a spoke point,
-//                      of a face point, limit row, limit rows), then one a level 0..steps: (pattern rows of the level, neighbours
+//                      of a face point, limit row, limit rows), then one a level 0..steps: (pattern rows of the level, neighbors
 //                      on it, points, its run in the scratch buffer)
 //   blocks             kBlockLanes lanes of one class, step and kind of work each, three elements: (first cell, pattern
 //                      row, strip or limit row; row list's first word or the class's patches; first place in the list;
-//                      first fragment), (run read, run written, fragments, places), (neighbours on the level before,
+//                      first fragment), (run read, run written, fragments, places), (neighbors on the level before,
 //                      class header, 0, 0); the fragment rises first
 //   fragments          (class header, fragment, 0, 0)
 #ifndef SUPPLE_SHARED_SUBDIVISION_H
@@ -78,8 +78,8 @@ SUPPLE_SHARED_CONST kFromPastNet = 2u;
 SUPPLE_SHARED_CONST kSources = 3u;
 
 SUPPLE_SHARED_CONST kCellTargets = 7u;
-// The points a cell makes, by neighbour: its own vertex point, then the edge points (Loop: all, Catmull-Clark:
-// neighbours 0, 2, 6) and face points (Catmull-Clark: 1, 7) towards them.
+// The points a cell makes, by neighbor: its own vertex point, then the edge points (Loop: all, Catmull-Clark:
+// neighbors 0, 2, 6) and face points (Catmull-Clark: 1, 7) towards them.
 #define SUPPLE_SUBDIVISION_QUAD_SLOTS 0u, 1u, 2u, 6u, 7u
 SUPPLE_SHARED_CONST kNoTarget = 0xFFFFu;
 SUPPLE_SHARED_CONST kNoSample = 0xFFFFFFFFu;

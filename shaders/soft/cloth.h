@@ -1,6 +1,6 @@
 // A step of a cloth: extended position based dynamics (Macklin, Mueller, Chentanez: XPBD, MIG 2016) in substeps of one iteration
 // (Macklin and others: Small Steps in Physics Simulation, SCA 2019), so that multipliers begin at 0 and a constraint's step is
-// closed. Lanes of a workgroup share a cloth, and each keeps to vertices of its own. Constraints of a colour touch different
+// closed. Lanes of a workgroup share a cloth, and each keeps to vertices of its own. Constraints of a color touch different
 // vertices, and sums are those of a tree, so the bits are the same for any number of lanes, a power of two up to kClothSums. Needs
 // colliders.h, soft.h; clothTable(); of the instance clothState(), keepClothState(); of the step goalOf(), posedJoint(); of the
 // workgroup placeAt(), keepPlace(), sumAt(), keepSum(), colliderAt(), keepCollider(), meet(), laneOf(), laneCount(). In C++ this
@@ -21,7 +21,7 @@ struct ClothStep {
 vec4 clothFloats(uint i) { return uintBitsToFloat(clothTable(i)); }
 
 struct ClothTables {
-    uint vertexCount, hangingCount, vertices, vertexElements, colourCount, colours, faceCount, faces, colliderCount, colliders;
+    uint vertexCount, hangingCount, vertices, vertexElements, colorCount, colors, faceCount, faces, colliderCount, colliders;
     uint substeps, state;
     float seconds, kept, lostToAir, farthest, perSecond, gravity, volume, volumeCompliance, hitRadius;
     vec4 spring;
@@ -35,8 +35,8 @@ ClothTables clothTables(uint cloth) {
     all.hangingCount = a.y;
     all.vertices = a.z;
     all.vertexElements = a.w;
-    all.colourCount = b.x;
-    all.colours = b.y;
+    all.colorCount = b.x;
+    all.colors = b.y;
     all.faceCount = b.z;
     all.faces = b.w;
     all.colliderCount = min(c.x, kMostClothColliders);
@@ -235,8 +235,8 @@ void finish(ClothTables all, uint vertex) {
 void runSubstep(ClothTables all, ClothStep now, uint substep) {
     for (uint i = laneOf(); i < all.vertexCount; i += laneCount()) predict(all, now, i, substep);
     meet();
-    for (uint colour = 0u; colour < all.colourCount; ++colour) {
-        uvec4 own = clothTable(all.colours + colour);
+    for (uint color = 0u; color < all.colorCount; ++color) {
+        uvec4 own = clothTable(all.colors + color);
         for (uint element = own.x + laneOf(); element < own.y; element += laneCount()) holdDistance(element);
         meet();
     }

@@ -323,7 +323,7 @@ class Panel(Case):
         self.assertEqual(sorted(refused.faces), [1, 6])
 
     def test_folds(self):
-        # The vertex in the middle lies beyond its neighbours.
+        # The vertex in the middle lies beyond its neighbors.
         points = [(x, y, 0) for y in range(5) for x in range(5)]
         points[12] = (4.4, 2, 0)
         spike = add("spike", points, [(i, i + 1, i + 6, i + 5) for i in range(19) if i % 5 != 4])

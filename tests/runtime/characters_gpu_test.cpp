@@ -1,5 +1,5 @@
 // Whole characters on the GPU under p-rep and P_m: skinning against the CPU skinner, surfaces against the
-// double-precision reference, and what neighbouring patches share: position bits and normals.
+// double-precision reference, and what neighboring patches share: position bits and normals.
 #include "skinning/pose.h"
 #include "tests/support/meshes.h"
 #include "tests/support/pm_gpu.h"

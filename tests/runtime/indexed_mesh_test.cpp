@@ -187,7 +187,7 @@ std::vector<NamedCage> quadCages() {
             {"one quad", grid(1, 1)}};
 }
 
-/// Two rates of four for a cage of a zoo. Its neighbours have the others, and so has the same cage in the other
+/// Two rates of four for a cage of a zoo. Its neighbors have the others, and so has the same cage in the other
 /// mapping.
 std::vector<uint32_t> ratesOf(size_t cage, SuppleMapping mapping) {
     const bool other = (cage % 2 == 0) == (mapping == SUPPLE_MAPPING_WIDE);

@@ -76,7 +76,7 @@ TEST_P(LodLevels, EdgesHaveTheReferencesOfBothMeasures) {
                 for (const LodSurface::Patch& patch : surface.patches) {
                     const auto kind = static_cast<SupplePatchClass>(infos[patch.patch].patchClass);
                     if (kind != SUPPLE_PATCH_REGULAR && kind != SUPPLE_PATCH_PERTURBED) {
-                        continue; // their borders are their neighbours', too
+                        continue; // their borders are their neighbors', too
                     }
                     for (size_t e = 0; e < 4; ++e) {
                         std::array<glm::dvec3, 4> cubic;

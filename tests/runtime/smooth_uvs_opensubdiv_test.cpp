@@ -94,7 +94,7 @@ private:
     std::vector<Face> faces_;
 };
 
-/// A chart that is cut at random: the values of a third of the faces' corners are moved away from their neighbours'.
+/// A chart that is cut at random: the values of a third of the faces' corners are moved away from their neighbors'.
 /// Runs round a vertex that are parted by others have no value in common: there OpenSubdiv 3.5 counts wrongly.
 cage::Cage inPieces(cage::Cage cage, uint32_t seed) {
     std::mt19937 random(seed);

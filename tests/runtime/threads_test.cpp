@@ -4,7 +4,9 @@
 #include "tests/support/recorder.h"
 
 #include <algorithm>
+#include <array>
 #include <barrier>
+#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <gtest/gtest.h>
@@ -150,6 +152,127 @@ TEST(Threads, RecordTheBitsOfOneThread) {
         EXPECT_TRUE(alone == run(context, groups, Order::asRecorded)) << groups;
         EXPECT_TRUE(alone == run(context, groups, Order::reversed)) << groups;
     }
+}
+
+/// Two threads, each with a group to record and a pool to ask. Both pools have both groups.
+class Askers {
+public:
+    static constexpr uint32_t kCount = 2;
+    static constexpr uint32_t kRays = 4;
+
+    Askers(LoggedContext& context, SuppleAsset asset) : context_(context) {
+        for (uint32_t g = 0; g < kCount; ++g) {
+            groups_.push_back(
+                createGroup(context.handle(), asset, {.capacity = kCapacity, .scheme = SUPPLE_SCHEME_PM}));
+            EXPECT_EQ(groups_.back().result, SUPPLE_OK);
+            handles_[g] = groups_.back().group;
+            recorders_.push_back(std::make_unique<Recorder>(context.device()));
+        }
+        SuppleQueryPoolDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.groups = handles_.data();
+        desc.groupCount = kCount;
+        desc.rayCount = kRays;
+        for (SuppleQueryPool& pool : pools_) {
+            EXPECT_EQ(suppleCreateQueryPool(context.handle(), &desc, &pool), SUPPLE_OK);
+        }
+        // Made anew for both pools at once: what is uploaded of it they have in common.
+        const SuppleAssetDesc again = tubeDesc();
+        EXPECT_EQ(suppleReloadAsset(context.handle(), asset, &again), SUPPLE_OK);
+    }
+    ~Askers() {
+        for (uint32_t g = 0; g < kCount; ++g) {
+            EXPECT_EQ(suppleDestroyQueryPool(context_.handle(), pools_[g]), SUPPLE_OK);
+            EXPECT_EQ(suppleDestroyGroup(context_.handle(), handles_[g]), SUPPLE_OK);
+        }
+    }
+    Askers(const Askers&) = delete;
+    Askers& operator=(const Askers&) = delete;
+
+    /// What one of the threads does in a frame.
+    void recordAndAsk(uint32_t g, uint32_t frame) {
+        change(context_.handle(), g, frame, groups_[g]);
+        const VkCommandBuffer commands = recorders_[g]->begin();
+        EXPECT_EQ(context_.record(commands, {&handles_[g], 1}), SUPPLE_OK);
+        std::array<SuppleRay, kRays> rays{};
+        for (uint32_t r = 0; r < kRays; ++r) {
+            rays[r] = {{static_cast<float>(g + 1), 0.7f * static_cast<float>(r), -50.0f}, 0.0f, {0, 0, 1}, 100.0f};
+        }
+        SuppleQueryDesc desc{};
+        desc.structSize = sizeof(desc);
+        desc.flags = SUPPLE_QUERY_READ_BACK;
+        desc.groups = &handles_[g];
+        desc.groupCount = 1;
+        desc.hostRays = rays.data();
+        desc.rayCount = kRays;
+        desc.before = desc.after = kAnyUse;
+        EXPECT_EQ(suppleRecordQueries(context_.handle(), commands, pools_[g], &desc), SUPPLE_OK);
+        recorders_[g]->end();
+    }
+    void submit() const {
+        for (const std::unique_ptr<Recorder>& recorder : recorders_) {
+            const VkCommandBuffer commands = recorder->handle();
+            VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+            submit.commandBufferCount = 1;
+            submit.pCommandBuffers = &commands;
+            EXPECT_EQ(vkQueueSubmit(context_.device().queue(), 1, &submit, VK_NULL_HANDLE), VK_SUCCESS);
+        }
+        EXPECT_EQ(vkQueueWaitIdle(context_.device().queue()), VK_SUCCESS);
+    }
+    void appendHits(std::vector<SuppleHit>& found) const {
+        for (const SuppleQueryPool pool : pools_) {
+            std::array<SuppleHit, kRays> hits{};
+            uint32_t count = kRays;
+            EXPECT_EQ(suppleReadHits(context_.handle(), pool, hits.data(), &count, nullptr), SUPPLE_OK);
+            found.insert(found.end(), hits.begin(), hits.begin() + count);
+        }
+    }
+
+private:
+    LoggedContext& context_;
+    std::vector<SmallGroup> groups_;
+    std::array<SuppleGroup, kCount> handles_{};
+    std::array<SuppleQueryPool, kCount> pools_{};
+    std::vector<std::unique_ptr<Recorder>> recorders_;
+};
+
+/// What they find in all frames. In the first ones, groups wait for their uploads.
+std::vector<SuppleHit> hitsOf(host::Device& device, bool atOnce) {
+    LoggedContext context(device);
+    SuppleAsset asset{};
+    EXPECT_EQ(createTube(context.handle(), asset), SUPPLE_OK);
+    EXPECT_EQ(suppleSetUploadBudget(context.handle(), 20'000), SUPPLE_OK);
+    Askers askers(context, asset);
+    std::vector<SuppleHit> found;
+    for (uint32_t frame = 1; frame <= kFrames / 2; ++frame) {
+        context.beginFrame();
+        EXPECT_TRUE(context.device().submitAndWait(
+            [&](VkCommandBuffer commands) { EXPECT_EQ(suppleRecordUploads(context.handle(), commands), SUPPLE_OK); }));
+        if (atOnce) {
+            const std::jthread other([&] { askers.recordAndAsk(1, frame); });
+            askers.recordAndAsk(0, frame);
+        } else {
+            askers.recordAndAsk(1, frame);
+            askers.recordAndAsk(0, frame);
+        }
+        askers.submit();
+        context.beginFrame();
+        askers.appendHits(found);
+    }
+    return found;
+}
+
+TEST(Threads, AskWhatRaysMeetOfTheirGroups) {
+    host::Device* device = testDevice();
+    ASSERT_NE(device, nullptr);
+    const ValidationGuard guard;
+    const std::vector<SuppleHit> alone = hitsOf(*device, false), atOnce = hitsOf(*device, true);
+    ASSERT_EQ(alone.size(), atOnce.size());
+    EXPECT_EQ(std::memcmp(alone.data(), atOnce.data(), alone.size() * sizeof(SuppleHit)), 0);
+    for (const uint32_t group : {0u, 1u}) {
+        EXPECT_TRUE(std::any_of(alone.begin(), alone.end(), [&](const SuppleHit& hit) { return hit.group == group; }));
+    }
+    EXPECT_EQ(alone[0].group, SUPPLE_NO_HIT) << "it waits";
 }
 
 /// Prepared characters on their way from threads that make them to the one that records.

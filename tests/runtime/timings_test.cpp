@@ -136,7 +136,7 @@ TEST_F(DrawnTimings, EveryPassOfEveryGroupHasItsOwnTime) {
     const SuppleGroup groups[] = {a.group(), b.group()};
 
     // The least of some frames: other processes only add. Both groups are alike, and motion does most of what evaluate
-    // does. What a pass took, or another group, must not stand with its neighbour: with draws lavapipe once gave
+    // does. What a pass took, or another group, must not stand with its neighbor: with draws lavapipe once gave
     // evaluate 2.4 ms and motion 0.02.
     std::map<std::pair<std::string, uint64_t>, double> least;
     for (int frame = 0; frame < 6; ++frame) {

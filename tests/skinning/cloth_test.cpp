@@ -141,16 +141,16 @@ TEST(Cloths, TheCapeHasItsConstraints) {
     const Result<ClothTable> table = buildClothTable(cape);
     ASSERT_TRUE(table.ok());
     const auto word = [&](uint32_t element, uint32_t k) { return table->words[4 * size_t{element} + k]; };
-    const uint32_t colours = word(1, 0), first = word(1, 1);
-    EXPECT_LE(colours, 14u);
+    const uint32_t colors = word(1, 0), first = word(1, 1);
+    EXPECT_LE(colors, 14u);
     size_t constraints = 0;
-    for (uint32_t c = 0; c < colours; ++c) {
+    for (uint32_t c = 0; c < colors; ++c) {
         std::vector<uint32_t> touched;
         for (uint32_t element = word(first + c, 0); element < word(first + c, 1); ++element, ++constraints) {
             touched.insert(touched.end(), {word(element, 0), word(element, 1)});
         }
         std::sort(touched.begin(), touched.end());
-        EXPECT_EQ(std::adjacent_find(touched.begin(), touched.end()), touched.end()) << "colour " << c;
+        EXPECT_EQ(std::adjacent_find(touched.begin(), touched.end()), touched.end()) << "color " << c;
     }
     EXPECT_EQ(constraints, 993u);
 }

@@ -52,7 +52,7 @@ using Faces = std::vector<std::vector<uint32_t>>;
 [[nodiscard]] cage::Cage quartered(const cage::Cage& triangles);
 /// A share of the quads cut into two triangles, chosen by the seed.
 [[nodiscard]] cage::Cage withCutQuads(const cage::Cage& cage, double share, uint32_t seed);
-/// Neighbouring faces merged at random, `tries` times, into faces of up to five sides; no valence below 3 comes of it.
+/// Neighboring faces merged at random, `tries` times, into faces of up to five sides; no valence below 3 comes of it.
 [[nodiscard]] cage::Cage withMergedFaces(const cage::Cage& cage, uint32_t tries, uint32_t seed);
 /// The cage without some faces; vertices that no face uses any more are dropped.
 [[nodiscard]] cage::Cage withoutFaces(const cage::Cage& cage, const std::vector<uint32_t>& faces);

@@ -1,4 +1,4 @@
-// P_m groups on the device by the facets of their mesh, and the bits that neighbouring patches share.
+// P_m groups on the device by the facets of their mesh, and the bits that neighboring patches share.
 #pragma once
 
 #include "surface/pm/mesh.h"

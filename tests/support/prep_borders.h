@@ -1,4 +1,4 @@
-// Measures what neighbouring patches share: the tangent plane in double, the bits in float.
+// Measures what neighboring patches share: the tangent plane in double, the bits in float.
 #pragma once
 
 #include "tests/support/prep_surface.h"

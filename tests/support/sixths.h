@@ -19,7 +19,7 @@ namespace supple::test {
 inline std::vector<double> framesOf(uint32_t rate, uint32_t sixths) {
     std::vector<double> times;
     for (uint32_t k = 0; k <= rate * sixths / 6; ++k) {
-        times.push_back(k * 6 % rate == 0 ? k * 6 / rate / 6.0 : static_cast<double>(k) / rate);
+        times.push_back(k * 6 % rate == 0 ? static_cast<double>(k * 6 / rate) / 6.0 : static_cast<double>(k) / rate);
     }
     return times;
 }
@@ -32,7 +32,7 @@ inline std::vector<double> irregularFrames(uint32_t count, uint32_t sixths) {
         times.push_back((0.5 + 0.5 * static_cast<double>(noise())) * sixths / 6.0);
     }
     for (uint32_t k = 0; k <= 2 * sixths; ++k) {
-        times.push_back(k % 2 == 0 ? k / 2 / 6.0 : k / 12.0);
+        times.push_back(k % 2 == 0 ? static_cast<double>(k / 2) / 6.0 : k / 12.0);
     }
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());

@@ -37,7 +37,7 @@ struct StoredPattern {
         uint32_t point = 0;
         surface::subdivision::Rule rule = surface::subdivision::Rule::vertex;
         uint32_t spoke = surface::subdivision::kNoSpoke;
-        /// Of Catmull-Clark's vertices: the point, its edge neighbours and its face neighbours, both as opposite pairs.
+        /// Of Catmull-Clark's vertices: the point, its edge neighbors and its face neighbors, both as opposite pairs.
         std::vector<uint32_t> sources;
     };
     std::vector<Row> rows;

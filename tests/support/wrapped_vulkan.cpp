@@ -68,8 +68,8 @@ VKAPI_ATTR void VKAPI_CALL copyBuffer(VkCommandBuffer commands, VkBuffer source,
 }
 VKAPI_ATTR VkResult VKAPI_CALL setName(VkDevice device, const VkDebugUtilsObjectNameInfoEXT* info) {
     if (info->objectType == VK_OBJECT_TYPE_BUFFER) {
-        const auto buffer = reinterpret_cast<VkBuffer>(info->objectHandle);
-        state.watched.erase(buffer); // handles come again
+        const auto buffer = reinterpret_cast<VkBuffer>(info->objectHandle); // NOLINT: a handle as a number
+        state.watched.erase(buffer);                                        // handles come again
         if (state.watchedName != nullptr && std::strcmp(info->pObjectName, state.watchedName) == 0) {
             state.watched.insert(buffer);
         }

@@ -85,7 +85,7 @@ inline void transpose4(__m256 (&r)[4]) {
     r[3] = _mm256_shuffle_ps(a1, a3, 0xEE); // 3 and 7
 }
 
-/// Two neighbouring samples, 48 bytes a patch.
+/// Two neighboring samples, 48 bytes a patch.
 inline void storePair(float* out, size_t stride, uint32_t count, const __m256 (&first)[6], const __m256 (&second)[6]) {
     __m256 head[8] = {first[0], first[1], first[2], first[3], first[4], first[5], second[0], second[1]};
     __m256 tail[4] = {second[2], second[3], second[4], second[5]};

@@ -14,7 +14,7 @@ struct ChartSeries {
     std::vector<double> values;
 };
 
-/// Bars over frames, of all series one above the other. Many frames are drawn as means of neighbours, with a tick at
+/// Bars over frames, of all series one above the other. Many frames are drawn as means of neighbors, with a tick at
 /// the largest sum of each.
 struct StackedBars {
     std::vector<ChartSeries> series; ///< all of one length

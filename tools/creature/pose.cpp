@@ -133,7 +133,7 @@ void Pose::reach(const std::string& side, const Vec3& wrist, const Vec3& pole, c
 }
 
 Curve::Curve(std::vector<std::pair<double, double>> list) : keys(std::move(list)), slopes(keys.size(), 0.0) {
-    // Fritsch-Carlson: level at peaks, harmonic mean of the neighbouring slopes elsewhere.
+    // Fritsch-Carlson: level at peaks, harmonic mean of the neighboring slopes elsewhere.
     for (size_t i = 1; i + 1 < keys.size(); ++i) {
         const double before = (keys[i].second - keys[i - 1].second) / (keys[i].first - keys[i - 1].first);
         const double after = (keys[i + 1].second - keys[i].second) / (keys[i + 1].first - keys[i].first);

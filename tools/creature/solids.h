@@ -74,7 +74,7 @@ void stud(Cage& cage, const Frame& frame, double radius, double height);
 // Moves the points so that the limit surface goes where they were.
 void fitLimits(Cage& cage, const std::function<bool(size_t)>& chosen, int rounds = 6);
 
-// Draws each point towards the middle of its neighbours by its share.
+// Draws each point towards the middle of its neighbors by its share.
 void relax(Cage& cage, const std::vector<double>& shares, int rounds);
 
 // A cage's limit points as a surface of flat faces, to lay things on.

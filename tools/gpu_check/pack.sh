@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Collects what gpu_check.sh --prebuilt needs: pack.sh FOLDER BUILD_DIR LAB_SOURCES BUILD_FIRST. FOLDER gets the scripts and one
 # pack.tar.gz. In that lie tree/ (programs without symbols, libraries other than the C library's, assets, shaders, data of tests) and
-# shared/ (assets, where they lie beside the sources): paths in tests lead from the sources to their neighbour.
+# shared/ (assets, where they lie beside the sources): paths in tests lead from the sources to their neighbor.
 set -euo pipefail
 folder=$1 build=$2 lab_sources=$3 build_first=$4
 scripts=$(cd "$(dirname "$0")" && pwd)

@@ -118,7 +118,7 @@ Sample<T> evaluate(const Patch<T>& patch, glm::vec<2, T> u, glm::vec<2, T> v) {
         }
     }
     // The perturbation's total comes last; it is added even where it is zero, which turns a -0 of the first sum into
-    // the +0 that a perturbed neighbour gets.
+    // the +0 that a perturbed neighbor gets.
     sample.position += h;
     sample.du += hu;
     sample.dv += hv;

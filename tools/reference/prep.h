@@ -36,7 +36,7 @@ template <class T>
                                    uint32_t face, const Options& options = {});
 
 /// Evaluates at the pairs (u, 1-u), (v, 1-v). Rows are collapsed first, and sums are symmetric under reversal, in the
-/// order of the shaders. At rate n the pairs are (k/n, (n-k)/n); then neighbours agree bit for bit at every border
+/// order of the shaders. At rate n the pairs are (k/n, (n-k)/n); then neighbors agree bit for bit at every border
 /// sample.
 template <class T>
 [[nodiscard]] Sample<T> evaluate(const Patch<T>& patch, glm::vec<2, T> u, glm::vec<2, T> v);

@@ -22,7 +22,7 @@ struct Folds {
 
 inline constexpr uint32_t kFoldRate = 8;
 
-/// A patch is folded where neighbouring triangles of its grid turn by more than a right angle against each other; of
+/// A patch is folded where neighboring triangles of its grid turn by more than a right angle against each other; of
 /// its triangles those are flipped that face against the patch as a whole. A patch that is merely bent has none.
 [[nodiscard]] Folds findFolds(const surface::pm::Mesh& mesh);
 

@@ -17,7 +17,7 @@ struct BakedVertex {
     uint32_t cageVertex = 0; ///< of a cage: vertices in one place stay apart, as they are in the cage
 };
 
-/// Neighbouring patches sum up a common normal in another order: components that differ by less are the same.
+/// Neighboring patches sum up a common normal in another order: components that differ by less are the same.
 inline constexpr float kSameNormal = 1e-6f;
 
 /// Vertices are the same if their normals are (kSameNormal) and all else is equal to the bit. The normal that came

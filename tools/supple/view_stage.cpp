@@ -156,7 +156,7 @@ Status ViewStage::setRate(uint32_t rate, uint64_t lastFrame) {
 
 Status ViewStage::setScheme(SuppleScheme scheme, uint64_t lastFrame) {
     const SuppleScheme before = std::exchange(scheme_, scheme);
-    const Status made = remakeGroup(offeredRate(static_cast<uint32_t>(settings.rate)), lastFrame);
+    Status made = remakeGroup(offeredRate(static_cast<uint32_t>(settings.rate)), lastFrame);
     if (!made)
         scheme_ = before;
     return made;
@@ -164,7 +164,7 @@ Status ViewStage::setScheme(SuppleScheme scheme, uint64_t lastFrame) {
 
 Status ViewStage::setSkinning(SuppleSkinning skinning, uint64_t lastFrame) {
     const SuppleSkinning before = std::exchange(skinning_, skinning);
-    const Status made = remakeGroup(static_cast<uint32_t>(settings.rate), lastFrame);
+    Status made = remakeGroup(static_cast<uint32_t>(settings.rate), lastFrame);
     if (!made)
         skinning_ = before;
     return made;
@@ -177,7 +177,7 @@ Status ViewStage::tune(uint64_t lastFrame) {
     if (!figure)
         return figure.error();
     std::swap(figure_, *figure);
-    const Status made = remakeGroup(static_cast<uint32_t>(settings.rate), lastFrame);
+    Status made = remakeGroup(static_cast<uint32_t>(settings.rate), lastFrame);
     if (made)
         retired_.back().figure = std::move(*figure);
     else
@@ -225,7 +225,7 @@ Status ViewStage::attach(const AttachedProp& what) {
             return made.error();
         attachments_ = std::move(*made);
     }
-    const Status added = tools::attach(*attachments_, what, extent_.bounds.radius());
+    Status added = tools::attach(*attachments_, what, extent_.bounds.radius());
     if (added) {
         attached_.push_back(what);
         ++attachedChanges_;

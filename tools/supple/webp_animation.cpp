@@ -61,7 +61,7 @@ Status WebpAnimation::write(int milliseconds, const std::string& path) {
     if (WebPAnimEncoderAdd(state_->encoder, nullptr, milliseconds, nullptr) == 0 ||
         WebPAnimEncoderAssemble(state_->encoder, &data) == 0)
         return state_->failure(path);
-    const Status status = host::writeWhole(path, {reinterpret_cast<const std::byte*>(data.bytes), data.size});
+    Status status = host::writeWhole(path, {reinterpret_cast<const std::byte*>(data.bytes), data.size});
     WebPDataClear(&data);
     return status;
 }

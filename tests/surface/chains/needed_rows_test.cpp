@@ -63,7 +63,7 @@ TEST(NeededRows, TheLargestNetsFit) {
     EXPECT_EQ(rows.count(), kAll + kNet / 2 + 1);
 }
 
-// However a file orders its faces, neighbours lie near each other.
+// However a file orders its faces, neighbors lie near each other.
 TEST(NeededRows, ShuffledCagesNeedNoMorePoints) {
     cage::Cage cage = grid(150, 150);
     for (uint32_t v = 0; v + 1 < cage.vertexCount(); v += 2) {

@@ -10,7 +10,7 @@ EXACT_SHARPNESS = "supple_sharpness"
 ALPHA = "supple_alpha"
 # Edge attributes of this prefix: the edges of the crease set that the rest of the name names.
 CREASE_SET = "supple_set:"
-# Face attribute: faces that shape their neighbours and are not drawn.
+# Face attribute: faces that shape their neighbors and are not drawn.
 HOLE = "supple_hole"
 
 # Blender's names on the left, OpenSubdiv's and USD's on the right.
