@@ -67,7 +67,7 @@ void findArcs(Kind& kind) {
 
 Crowd::Crowd(Device& device, const CrowdOptions& options)
     : context_(mustCreateContext(device, options.record)), budget_(options.budget), fixedRate_(options.fixedRate),
-      backFaces_(options.backFaces), isDirect_(options.direct), isMesh_(options.mesh) {
+      backFaces_(options.backFaces), isDirect_(options.direct) {
     if (hasLevels())
         createView(options);
     for (size_t k = 0; k < kKinds; ++k)

@@ -42,7 +42,6 @@ struct CrowdOptions {
     uint32_t count = 1000;
     uint32_t fixedRate = 0;      ///< of all characters; 0: levels of detail
     bool direct = false;         ///< at a fixed rate: evaluate while drawing
-    bool mesh = false;           ///< by a mesh shader
     uint32_t budget = 5'500'000; ///< surface vertices a frame
     uint32_t coefficients = 0;   ///< MiB that those share who are drawn; 0: there is memory for all
     bool wall = false;           ///< nobody walks where it stands
@@ -69,7 +68,6 @@ public:
     [[nodiscard]] const std::array<Kind, kKinds>& kinds() const { return kinds_; }
     [[nodiscard]] bool hasLevels() const { return fixedRate_ == 0; }
     [[nodiscard]] bool isDirect() const { return isDirect_; }
-    [[nodiscard]] bool isMesh() const { return isMesh_; }
     [[nodiscard]] size_t size() const { return instances_.size(); }
     /// Half the width of the square that they walk in.
     [[nodiscard]] float reach() const { return reach_; }
@@ -90,7 +88,7 @@ private:
     std::vector<supple::Instance> instances_;
     float reach_ = 1.0f;
     uint32_t budget_ = 0, fixedRate_ = 0;
-    bool backFaces_ = false, isDirect_ = false, isMesh_ = false;
+    bool backFaces_ = false, isDirect_ = false;
     mutable std::vector<SuppleTiming> timings_;
 };
 
