@@ -124,6 +124,16 @@ bool hasRayQueries(VkPhysicalDevice physicalDevice) {
     return rayQuery.rayQuery == VK_TRUE;
 }
 
+bool hasMeshShaders(VkPhysicalDevice physicalDevice) {
+    if (!hasExtension(deviceExtensions(physicalDevice), VK_EXT_MESH_SHADER_EXTENSION_NAME))
+        return false;
+    auto meshShader =
+        vkStruct<VkPhysicalDeviceMeshShaderFeaturesEXT>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT);
+    auto features = vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &meshShader);
+    vkGetPhysicalDeviceFeatures2(physicalDevice, &features);
+    return meshShader.meshShader == VK_TRUE;
+}
+
 /// What drawing lacks, or empty.
 std::string shortcomingForDrawing(VkPhysicalDevice physicalDevice) {
     VkPhysicalDeviceProperties properties{};
@@ -154,6 +164,8 @@ std::string shortcoming(VkInstance instance, VkPhysicalDevice physicalDevice, co
         return "no queue that does graphics and compute";
     if (options.rayTracing && !hasRayQueries(physicalDevice))
         return "missing extension VK_KHR_ray_query";
+    if (options.meshShaders && !hasMeshShaders(physicalDevice))
+        return "missing extension VK_EXT_mesh_shader";
     if (options.window && !hasExtension(deviceExtensions(physicalDevice), VK_KHR_SWAPCHAIN_EXTENSION_NAME))
         return "missing extension VK_KHR_swapchain";
     return {};
@@ -417,6 +429,12 @@ void Device::enableFeatures(const DeviceOptions& options) {
         rayQuery_.rayQuery = VK_TRUE;
         features11_.pNext = &rayQuery_;
     }
+    if (options.meshShaders) {
+        meshShader_ = vkStruct<VkPhysicalDeviceMeshShaderFeaturesEXT>(
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT, features11_.pNext);
+        meshShader_.meshShader = VK_TRUE;
+        features11_.pNext = &meshShader_;
+    }
     features_ =
         vkStruct<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &requirements_.features12);
     features_.features.samplerAnisotropy = supported.samplerAnisotropy;
@@ -445,6 +463,8 @@ Status Device::createDevice(const DeviceOptions& options) {
                                         requirements_.extensions + requirements_.extensionCount);
     if (options.rayTracing)
         extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
+    if (options.meshShaders)
+        extensions.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
     if (options.window)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     if (readsClocks())
@@ -459,6 +479,9 @@ Status Device::createDevice(const DeviceOptions& options) {
     vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
     getCalibratedTimestamps_ = reinterpret_cast<PFN_vkGetCalibratedTimestampsEXT>(
         vkGetDeviceProcAddr(device_, "vkGetCalibratedTimestampsEXT")); // null without the extension
+    if (options.meshShaders)
+        drawMeshTasks_ =
+            reinterpret_cast<PFN_vkCmdDrawMeshTasksEXT>(vkGetDeviceProcAddr(device_, "vkCmdDrawMeshTasksEXT"));
 
     auto poolInfo = vkStruct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     poolInfo.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;

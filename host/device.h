@@ -30,6 +30,8 @@ struct DeviceOptions {
     /// Acceleration structures and ray queries, for SUPPLE_CONTEXT_RAY_TRACING and host/ray_scene.h. A device without
     /// them will not do.
     bool rayTracing = false;
+    /// Mesh shaders, for GraphicsDesc::meshShader and drawMeshTasks(). A device without them will not do.
+    bool meshShaders = false;
     /// Instance and device of Vulkan 1.1 without a feature, which is enough for Supple and not for what is drawn here.
     bool onlyCompute = false;
     /// What suppleCreateContext is given instead of the loader's: tests count Vulkan calls through a wrapped table.
@@ -127,6 +129,8 @@ public:
     [[nodiscard]] bool isCpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     [[nodiscard]] bool hasDebugUtils() const { return debugUtils_; }
     [[nodiscard]] bool tracesRays() const { return rayQuery_.rayQuery == VK_TRUE; }
+    /// vkCmdDrawMeshTasksEXT; null without DeviceOptions::meshShaders.
+    [[nodiscard]] PFN_vkCmdDrawMeshTasksEXT drawMeshTasks() const { return drawMeshTasks_; }
     [[nodiscard]] bool hasAnisotropy() const { return anisotropy_; }
     /// multiDrawIndirect and shaderDrawParameters: many draws by one call, whose shaders know the number of each.
     [[nodiscard]] bool drawsMany() const { return features_.features.multiDrawIndirect == VK_TRUE; }
@@ -188,6 +192,7 @@ private:
     PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;
     PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
     PFN_vkGetCalibratedTimestampsEXT getCalibratedTimestamps_ = nullptr;
+    PFN_vkCmdDrawMeshTasksEXT drawMeshTasks_ = nullptr;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physicalDevice_ = VK_NULL_HANDLE;
@@ -196,6 +201,7 @@ private:
     SuppleRequirements requirements_{}; ///< the features that are enabled
     VkPhysicalDeviceVulkan11Features features11_{};
     VkPhysicalDeviceRayQueryFeaturesKHR rayQuery_{};
+    VkPhysicalDeviceMeshShaderFeaturesEXT meshShader_{};
     VkPhysicalDeviceFeatures2 features_{};
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;

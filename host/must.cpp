@@ -39,10 +39,10 @@ std::vector<char> mustReadFile(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::unique_ptr<Device> mustCreateDevice(bool window, bool rayTracing) {
+std::unique_ptr<Device> mustCreateDevice(DeviceOptions options) {
     const char* value = std::getenv("SUPPLE_VALIDATION");
-    const bool validation = value != nullptr && *value != 0 && std::string_view(value) != "0";
-    return must(Device::create({.validation = validation, .window = window, .rayTracing = rayTracing}));
+    options.validation = value != nullptr && *value != 0 && std::string_view(value) != "0";
+    return must(Device::create(options));
 }
 
 supple::Context mustCreateContext(Device& device, const std::string& record, uint32_t recordingFlags) {

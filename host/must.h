@@ -28,7 +28,7 @@ void must(SuppleResult result, const char* what);
 [[nodiscard]] std::vector<char> mustReadFile(const std::string& path);
 
 /// A device as the environment wants it: with SUPPLE_VALIDATION=1 the validation layer runs along.
-[[nodiscard]] std::unique_ptr<Device> mustCreateDevice(bool window, bool rayTracing = false);
+[[nodiscard]] std::unique_ptr<Device> mustCreateDevice(DeviceOptions options = {});
 /// A context for kFramesInFlight frames, which prints its warnings and errors. `record`: a file for a recording of it,
 /// or empty; `recordingFlags`: SuppleRecordingFlags of that, besides its hashes. It must go before the device.
 [[nodiscard]] supple::Context mustCreateContext(Device& device, const std::string& record = {},

@@ -169,9 +169,10 @@ Result<VkPipeline> createBetween(Device& device, const GraphicsDesc& desc, const
 } // namespace
 
 Result<VkPipeline> createGraphicsPipeline(Device& device, const GraphicsDesc& desc) {
-    const ShaderModule vertex(device.handle(), desc.vertexShader);
+    const bool isMesh = !desc.meshShader.empty();
+    const ShaderModule first(device.handle(), isMesh ? desc.meshShader : desc.vertexShader);
     const ShaderModule fragment(device.handle(), desc.fragmentShader);
-    for (const VkResult result : {vertex.result, fragment.result}) {
+    for (const VkResult result : {first.result, fragment.result}) {
         if (result != VK_SUCCESS)
             return vulkanError(result, "vkCreateShaderModule");
     }
@@ -180,7 +181,7 @@ Result<VkPipeline> createGraphicsPipeline(Device& device, const GraphicsDesc& de
         entries.push_back({i, i * static_cast<uint32_t>(sizeof(uint32_t)), sizeof(uint32_t)});
     const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
                                               entries.size() * sizeof(uint32_t), desc.constants.data()};
-    Ends ends{.stages = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex)},
+    Ends ends{.stages = {stage(isMesh ? VK_SHADER_STAGE_MESH_BIT_EXT : VK_SHADER_STAGE_VERTEX_BIT, first)},
               .attachments = std::vector(desc.colors.size(), attachmentState(desc.blend))};
     if (fragment.handle != VK_NULL_HANDLE)
         ends.stages.push_back(stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment));

@@ -44,6 +44,7 @@ struct GraphicsDesc {
     const char* name = "";
     VkPipelineLayout layout = VK_NULL_HANDLE;
     std::span<const uint32_t> vertexShader;
+    std::span<const uint32_t> meshShader;     ///< instead of a vertex shader
     std::span<const uint32_t> fragmentShader; ///< empty: depth only
     std::vector<uint32_t> constants; ///< of the specialization constants from 0 on, where the shaders have them
     std::vector<VkFormat> colors;

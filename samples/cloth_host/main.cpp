@@ -24,7 +24,7 @@ PictureOptions readOptions(int argc, char** argv) {
 }
 
 std::shared_ptr<const ValidationLog> run(const PictureOptions& options) {
-    const std::unique_ptr<Device> owner = mustCreateDevice(false);
+    const std::unique_ptr<Device> owner = mustCreateDevice();
     Device& device = *owner;
     cloth::Cloth cloth(device, options.rate, options.record);
     const cloth::Scene scene(device, cloth, options.size);

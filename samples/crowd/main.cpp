@@ -21,6 +21,7 @@ struct Options : PictureOptions {
                                         SUPPLE_SAMPLE_ASSETS "/pip_quads.glb"}};
     bool offscreen = false;
     bool levels = false;
+    bool mesh = false; ///< characters that are evaluated while drawing: by a mesh shader
 };
 
 Options readOptions(int argc, char** argv) {
@@ -40,6 +41,8 @@ Options readOptions(int argc, char** argv) {
         ->check(CLI::Range(1u, 64u));
     app.add_flag("--direct", options.crowd.direct, "with --fixed: evaluate while drawing, without stored vertices")
         ->needs("--fixed");
+    app.add_flag("--mesh", options.mesh, "with --direct: by a mesh shader; needs VK_EXT_mesh_shader")
+        ->needs("--direct");
     app.add_option("--budget", options.crowd.budget, "surface vertices a frame")
         ->check(CLI::Range(1024u, SUPPLE_MAX_VIEW_VERTICES))
         ->capture_default_str();
@@ -82,7 +85,7 @@ std::shared_ptr<const ValidationLog> run(const Options& options) {
     std::unique_ptr<SdlWindow> window;
     if (!options.offscreen)
         window = std::make_unique<SdlWindow>("Supple: a crowd", options.size);
-    const std::unique_ptr<Device> owner = mustCreateDevice(window != nullptr);
+    const std::unique_ptr<Device> owner = mustCreateDevice({.window = window != nullptr, .meshShaders = options.mesh});
     Device& device = *owner;
     Graph graph(device);
     const Resource buffers = graph.addBuffers();

@@ -35,7 +35,8 @@ struct TextCorner { // of stb_easy_font
 } // namespace
 
 Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool pyramid) : crowd_(crowd), wall_(wall) {
-    constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    VkShaderStageFlags seeing = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    seeing |= device.drawMeshTasks() != nullptr ? VK_SHADER_STAGE_MESH_BIT_EXT : 0;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     sunMap_ =
         must(device.createImage({.format = kDepthFormat,
@@ -52,7 +53,7 @@ Scene::Scene(Device& device, Graph& graph, const Crowd& crowd, bool wall, bool p
     }
 
     const VkDescriptorSetLayout sceneLayout =
-        must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth},
+        must(createSetLayout(device, {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, seeing},
                                       {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}}));
     const VkDescriptorSetLayout textLayout = must(createSetLayout(device, {{0, kStorage, VK_SHADER_STAGE_VERTEX_BIT}}));
     layout_ = must(createPipelineLayout(device, {sceneLayout}, kPushBytes, VK_SHADER_STAGE_VERTEX_BIT));

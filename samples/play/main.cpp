@@ -73,7 +73,7 @@ glm::vec3 seenMiddle(const Game& game) {
 }
 
 std::shared_ptr<const ValidationLog> runStory(const Options& options) {
-    const std::unique_ptr<Device> device = mustCreateDevice(false);
+    const std::unique_ptr<Device> device = mustCreateDevice();
     Show show(*device, heroOptions(options));
     show.resize(options.size);
     Frames frames(*device);
@@ -142,7 +142,7 @@ private:
 };
 
 std::shared_ptr<const ValidationLog> runInWindow(const Options& options) {
-    const std::unique_ptr<Device> device = mustCreateDevice(true);
+    const std::unique_ptr<Device> device = mustCreateDevice({.window = true});
     const std::unique_ptr<Window> window =
         must(Window::create(*device, "Supple: click to walk, right-click or press the space bar to hit", options.size));
     Show show(*device, heroOptions(options));

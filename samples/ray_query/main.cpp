@@ -224,7 +224,7 @@ void runFrame(Context& context, Cast& cast, RayScene& scene, const Tracer* trace
 }
 
 std::shared_ptr<const ValidationLog> run(const Options& options) {
-    const std::unique_ptr<Device> device = mustCreateDevice(false, true);
+    const std::unique_ptr<Device> device = mustCreateDevice({.rayTracing = true});
     const std::unique_ptr<Context> context = must(Context::create(*device, {.record = options.record}));
     Cast cast(*context, options);
     const std::unique_ptr<RayScene> scene =

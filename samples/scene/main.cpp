@@ -143,7 +143,7 @@ void print(const market::PanelFacts& facts, uint32_t budget) {
 constexpr double kFrameSeconds = 1.0 / 60.0;
 
 std::shared_ptr<const ValidationLog> runOffscreen(const Options& options) {
-    const std::unique_ptr<Device> device = mustCreateDevice(false);
+    const std::unique_ptr<Device> device = mustCreateDevice();
     Show show(*device, options);
     show.resize(options.size);
     Frames frames(*device);
@@ -184,7 +184,7 @@ void copyToWindow(const WindowFrame& frame, const Window& window, const Image& p
 }
 
 std::shared_ptr<const ValidationLog> runInWindow(const Options& options) {
-    const std::unique_ptr<Device> device = mustCreateDevice(true);
+    const std::unique_ptr<Device> device = mustCreateDevice({.window = true});
     const std::unique_ptr<Window> window = must(Window::create(*device, "Supple: a market place", options.size));
     const std::unique_ptr<Overlay> overlay = must(Overlay::create(*device, *window));
     Show show(*device, options);

@@ -77,7 +77,7 @@ std::shared_ptr<const ValidationLog> run(const Options& options) {
     std::unique_ptr<SdlWindow> window;
     if (!options.offscreen)
         window = std::make_unique<SdlWindow>("Supple", options.size);
-    const std::unique_ptr<Device> owner = mustCreateDevice(window != nullptr);
+    const std::unique_ptr<Device> owner = mustCreateDevice({.window = window != nullptr});
     Device& device = *owner;
     Graph graph(device);
     const Resource characterBuffers = graph.addBuffers();

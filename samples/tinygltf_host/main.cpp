@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
         std::puts("usage: supple_tinygltf_host [--record FILE] CHARACTER.glb");
         return argc == 2 && std::strcmp(argv[1], "--help") == 0 ? 0 : 2;
     }
-    std::unique_ptr<Device> device = mustCreateDevice(false);
+    std::unique_ptr<Device> device = mustCreateDevice();
     const std::shared_ptr<const ValidationLog> validation = device->validation();
     run(*device, argv[argc - 1], records ? argv[2] : "");
     device.reset();

@@ -2,6 +2,7 @@
 
 #include "tests/cage/gltf/builder.h"
 #include "tests/support/logged_context.h"
+#include "tests/support/tube_file.h"
 #if defined(SUPPLE_WITH_CPU)
 #include "supple/supple_cpu.h"
 #endif
@@ -44,6 +45,15 @@ uint64_t deviceMemoryOf(SuppleContext context) {
 }
 
 namespace {
+
+/// Six faces: calls are made once for each of their allocations, and pieces of surfaces take thousands of them.
+SuppleAssetDesc smallTube(const char* name) {
+    static const std::vector<std::byte> file = tubeFileOf(2, 3);
+    SuppleAssetDesc desc = tubeDesc(name);
+    desc.bytes = file.data();
+    desc.byteCount = file.size();
+    return desc;
+}
 
 std::vector<std::byte> externalFile() {
     GltfBuilder b = skinnedQuad();
@@ -129,7 +139,7 @@ private:
         group.rate = 2;
         group.scheme = SUPPLE_SCHEME_CATMULL_CLARK;
         const SupplePlannedGroup planned{&group, 0, 0};
-        const SuppleAssetDesc read = tubeDesc("another tube whose name is too long to lie in a string itself");
+        const SuppleAssetDesc read = smallTube("another tube whose name is too long to lie in a string itself");
         SupplePrepareDesc desc{};
         desc.structSize = sizeof(desc);
         desc.mapping = SUPPLE_MAPPING_NARROW;
@@ -203,7 +213,7 @@ private:
     }
 
     void createAssets() {
-        SuppleAssetDesc desc = tubeDesc("a tube whose name is too long to lie in a string itself");
+        SuppleAssetDesc desc = smallTube("a tube whose name is too long to lie in a string itself");
         call("suppleCreateAsset, a GLB", [&] { return suppleCreateAsset(handle(), &desc, &tube_); });
 
         const std::vector<std::byte> external = externalFile();
@@ -683,11 +693,7 @@ private:
         const float wind[3] = {1.0f, 0.0f, 2.0f};
         call("suppleSetWind", [&] { return suppleSetWind(handle(), groups_[1], wind); });
         call("suppleSetRate", [&] { return suppleSetRate(handle(), groups_[1], 1); });
-        SuppleAssetDesc desc{};
-        desc.structSize = sizeof(desc);
-        desc.name = "a tube whose name is too long to lie in a string itself";
-        desc.bytes = tubeFile().data();
-        desc.byteCount = tubeFile().size();
+        const SuppleAssetDesc desc = smallTube("a tube whose name is too long to lie in a string itself");
         call("suppleReloadAsset", [&] { return suppleReloadAsset(handle(), tube_, &desc); });
     }
 

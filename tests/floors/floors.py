@@ -15,9 +15,10 @@ import sys
 # Bottom up, one floor a line. A room is a folder, or the files whose paths begin as it says; a file belongs to the
 # longest room that fits. It may include its own room and the floors below. Rooms of one floor never include each other.
 FLOORS = [line.split() for line in """
-    shaders/supple_patch_layout.h
+    shaders/supple_patch_layout.h shaders/supple_patch_tiles.h
     base/ shaders/shared/ shaders/supple_surface.glsl shaders/trim.glsl shaders/supple_depth_pyramid.comp
     shaders/supple_patch.glsl
+    shaders/supple_patch_tiles.glsl
     shaders/surface/ shaders/pose/ shaders/deform/
     shaders/lod/ shaders/soft/
     shaders/evaluate/ shaders/bounds/ shaders/bench/ shaders/draw/ shaders/recording/ shaders/points/ shaders/queries/
@@ -45,7 +46,7 @@ FLOORS = [line.split() for line in """
 
 # What hosts get of Supple. These files include nothing else of the tree: they are installed without it.
 PUBLIC = ["runtime/include/", "shaders/supple_surface.glsl", "shaders/supple_patch.glsl", "shaders/supple_patch_layout.h",
-          "shaders/trim.glsl", "shaders/supple_depth_pyramid.comp"]
+          "shaders/supple_patch_tiles.glsl", "shaders/supple_patch_tiles.h", "shaders/trim.glsl", "shaders/supple_depth_pyramid.comp"]
 
 # Rooms that may include less than all floors below them: these rooms alone.
 ONLY = {
@@ -87,12 +88,12 @@ EXCEPTIONS = {
 }
 
 # Headers that the build writes: of shaders, and by rooms for themselves.
-GENERATED = re.compile(r"surface/kernels\.h$|shaders/\w+_(comp|vert|frag)\w*\.h$|bench_characters\.h$")
+GENERATED = re.compile(r"surface/kernels\.h$|shaders/\w+_(comp|vert|frag|mesh)\w*\.h$|bench_characters\.h$")
 
 # An include is looked up from the root, from these, and from the folder of the file that includes.
 INCLUDE_FOLDERS = ["", "runtime/include", "shaders"]
 
-SOURCES = (".h", ".hpp", ".c", ".cpp", ".glsl", ".comp", ".vert", ".frag")
+SOURCES = (".h", ".hpp", ".c", ".cpp", ".glsl", ".comp", ".vert", ".frag", ".mesh")
 SKIPPED_FOLDERS = re.compile(r"\.|build|cmake-build|_|out$|docs$|cmake$")
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^">]+)[">]')
 

@@ -1,27 +1,14 @@
 // SUPPLE_GROUP_DIRECT: what shaders/supple_patch.glsl makes of patches has the bits of stored vertices, for all classes
 // of patches and at any rate; pictures are the same; and the group has no memory for vertices.
-#include "host/draw_target.h"
-#include "host/pipelines.h"
-#include "host/rendering.h"
 #include "shaders/direct_comp.h"
 #include "shaders/direct_comp_DERIVATIVES.h"
 #include "shaders/direct_comp_SUPPLE_PATCH_TEXELS.h"
-#include "shaders/direct_vert.h"
-#include "shaders/direct_vert_SUPPLE_PATCH_TEXELS.h"
-#include "shaders/prop_frag.h"
-#include "shaders/ranges_vert.h"
-#include "shaders/supple_patch_layout.h"
-#include "surface/schemes.h"
-#include "tests/support/crowd.h"
-#include "tests/support/meshes.h"
-#include "tests/support/pm_zoo.h"
+#include "tests/runtime/direct_groups.h"
 #include "tests/support/sample_assets.h"
-#include "tests/support/shader_range.h"
 #include "tests/support/side_by_side.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -31,60 +18,10 @@
 namespace supple::test {
 namespace {
 
-constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                           kTexels = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-
 struct DirectPush {
     SupplePatchRange range{};
     uint32_t verticesPerInstance = 0;
     uint32_t count = 0;
-};
-struct PicturePush {
-    glm::vec4 window{0.0f, 0.8f, 1.3f, 0.0f};
-    SupplePatchRange direct{};
-};
-struct StoredPush {
-    glm::vec4 window{0.0f, 0.8f, 1.3f, 0.0f};
-    ShaderRange range;
-};
-
-SuppleDirectOutput directOutput(const Crowd& crowd) {
-    SuppleDirectOutput out{};
-    out.structSize = sizeof out;
-    EXPECT_EQ(suppleGetDirectOutput(crowd.context().handle(), crowd.group(), 0, &out), SUPPLE_OK);
-    EXPECT_EQ(out.layout, SUPPLE_PATCH_LAYOUT);
-    return out;
-}
-
-/// The bindings of supple_patch.glsl, and one more of a storage buffer.
-class DirectSet {
-public:
-    DirectSet(host::Device& device, VkShaderStageFlags stages, bool texels) : device_(device), texels_(texels) {
-        const VkDescriptorType patches = texels ? kTexels : kStorage;
-        layout_ = *host::createSetLayout(
-            device, {{0, kStorage, stages}, {4, kStorage, stages}, {6, patches, stages}, {7, patches, stages}});
-        pool_ = std::move(*host::DescriptorPool::create(device, 1));
-        set_ = *pool_.allocate(layout_);
-    }
-    void write(const SuppleBufferRange& instances, const SuppleDirectOutput& from, VkBuffer fourth) {
-        pool_.write(set_, {host::storageBuffer(0, instances), host::storageBuffer(4, fourth, 0, VK_WHOLE_SIZE),
-                           patches(6, from.tables, VK_FORMAT_R32G32B32A32_UINT),
-                           patches(7, from.coefficients, VK_FORMAT_R32G32B32A32_SFLOAT)});
-    }
-    [[nodiscard]] VkDescriptorSetLayout layout() const { return layout_; }
-    [[nodiscard]] VkDescriptorSet set() const { return set_; }
-
-private:
-    [[nodiscard]] host::Write patches(uint32_t binding, const SuppleBufferRange& range, VkFormat format) const {
-        return texels_ ? host::texels(binding, *host::createTexels(device_, range, format))
-                       : host::storageBuffer(binding, range);
-    }
-
-    host::Device& device_;
-    bool texels_ = false;
-    VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
-    host::DescriptorPool pool_;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
 /// Evaluates the groups of a device by a compute shader.
@@ -113,7 +50,7 @@ public:
         const host::Buffer result =
             std::move(*device_.uploadBuffer(none.data(), none.size() * sizeof(glm::vec3),
                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
-        set_.write(grid.rates[0].instances, from, result.handle());
+        set_.write(grid, from, result.handle());
         const VkDescriptorSet set = set_.set();
         EXPECT_TRUE(
             device_
@@ -137,118 +74,6 @@ private:
     DirectSet set_;
     VkPipelineLayout layout_;
     VkPipeline pipeline_;
-};
-
-/// Two instances: one where it is, one far from the origin and turned.
-void place(Crowd& crowd, uint32_t clip) {
-    const glm::mat4 turned =
-        glm::rotate(glm::translate(glm::mat4(1.0f), {37.0f, 11.0f, -52.0f}), 0.7f, {0.3f, 1.0f, 0.2f});
-    crowd.pose(crowd.spawn(), clip, 0.4, glm::mat4(1.0f));
-    crowd.pose(crowd.spawn(), clip, 0.9, turned);
-}
-
-struct Compared {
-    size_t vertices = 0, different = 0;
-    float largestTurn = 0.0f; ///< of normals
-
-    void add(const Crowd& stored, const std::vector<glm::vec3>& made, uint32_t slot) {
-        const SuppleGridOutput grid = stored.output().grid;
-        const std::vector<glm::vec3> vertices = as<glm::vec3>(stored.read(stored.output().streams.vertices));
-        for (size_t v = 0; v < grid.vertexCount; ++v) {
-            const size_t at = 2 * (size_t{slot} * grid.verticesPerInstance + v);
-            using Bits = std::array<uint32_t, 3>;
-            different += std::bit_cast<Bits>(vertices[at]) != std::bit_cast<Bits>(made[at]) ? 1 : 0;
-            largestTurn = std::max(largestTurn, glm::distance(vertices[at + 1], made[at + 1]));
-            ++this->vertices;
-        }
-    }
-    void expectSame(const char* what) const {
-        std::printf("%s: %zu vertices, %zu differ, normals by %.2g\n", what, vertices, different,
-                    static_cast<double>(largestTurn));
-        EXPECT_GT(vertices, 0u);
-        EXPECT_EQ(different, 0u);
-        EXPECT_LT(largestTurn, 0.01f);
-    }
-};
-
-struct Subject {
-    std::string name;
-    SuppleScheme scheme = SUPPLE_SCHEME_PM;
-    cage::Cage cage;
-    SuppleCornerRule corners = SUPPLE_CORNERS_SHARP;
-};
-
-/// Corners of patches from a record on whose tangents are parallel: their normals are taken a step inside.
-uint32_t singularCorners(const std::vector<uint32_t>& words, uint32_t firstRecord, uint32_t patchClass,
-                         uint32_t patches) {
-    uint32_t corners = 0;
-    for (uint32_t p = 0; p < patches && patchClass >= SUPPLE_PATCH_P3 && patchClass <= SUPPLE_PATCH_P5; ++p) {
-        const uint32_t record = firstRecord + p * SUPPLE_PM_RECORD_ELEMENTS(patchClass);
-        corners +=
-            static_cast<uint32_t>(std::popcount(SUPPLE_SINGULAR(words[4 * record + SUPPLE_PM_INNER_WORD(patchClass)])));
-    }
-    return corners;
-}
-bool isSingular(const cage::Cage& cage) {
-    const Result<surface::Tables> tables = surface::buildTables({.scheme = surface::SchemeId::pm}, cage);
-    return tables && std::ranges::any_of(tables->ranges, [&](const surface::PatchRange& range) {
-               return singularCorners(tables->words, range.section.table, static_cast<uint32_t>(range.patchClass),
-                                      range.section.count) > 0;
-           });
-}
-
-std::vector<Subject> subjects() {
-    std::vector<Subject> all{
-        {"pentagons round a fan", SUPPLE_SCHEME_PM, perturbed(fanOverPentagons(5), 0.02f, 1)},
-        {"triangles round a fan", SUPPLE_SCHEME_PM, perturbed(fanOverTriangles(4), 0.02f, 2)},
-        {"capped cylinder", SUPPLE_SCHEME_PM, perturbed(cappedCylinder(8, 5), 0.02f, 3)},
-        {"jack, p-rep", SUPPLE_SCHEME_PREP, perturbed(jack(), 0.02f, 4)},
-        {"grid, p-rep", SUPPLE_SCHEME_PREP, perturbed(grid(4, 3), 0.02f, 5), SUPPLE_CORNERS_SMOOTH},
-    };
-    size_t creased = 0, singular = 0;
-    for (const PmCage& from : pmZoo()) {
-        if (from.variant != PmVariant::creased && from.variant != PmVariant::alphas) {
-            continue;
-        }
-        const bool isOneOfTwelve = creased++ % 12 == 0;
-        if (!isOneOfTwelve && singular >= 2) {
-            continue;
-        }
-        const bool hasSingular = isSingular(from.cage);
-        if (isOneOfTwelve || hasSingular) {
-            singular += hasSingular ? 1 : 0;
-            all.push_back({from.name, SUPPLE_SCHEME_PM, from.cage});
-        }
-    }
-    return all;
-}
-
-/// A group with stored vertices, and one like it without.
-struct Pair {
-    Pair(CrowdContext& own, SuppleGroupDesc desc, uint32_t clip)
-        : stored(own, withFormat(desc)), direct(own, withFlag(desc)) {
-        place(stored, clip);
-        place(direct, clip);
-    }
-    [[nodiscard]] bool valid() const { return stored.valid() && direct.valid(); }
-    void setRate(uint32_t rate) {
-        stored.setRate(rate);
-        direct.setRate(rate);
-    }
-    void run() {
-        stored.run();
-        direct.context().run(direct.group());
-    }
-    static SuppleGroupDesc withFormat(SuppleGroupDesc desc) {
-        desc.vertexFormat = SUPPLE_VERTEX_24;
-        return desc;
-    }
-    static SuppleGroupDesc withFlag(SuppleGroupDesc desc) {
-        desc.flags |= SUPPLE_GROUP_DIRECT;
-        return desc;
-    }
-
-    Crowd stored, direct;
 };
 
 class Direct : public CrowdContexts {};
@@ -283,9 +108,7 @@ TEST_P(DirectBits, AreThoseOfStoredVertices) {
             here.add(pair.stored, made, 1);
             EXPECT_EQ(here.different, 0u) << subject.name << " at rate " << rate;
             EXPECT_LT(here.largestTurn, 0.01f) << subject.name << " at rate " << rate;
-            compared.vertices += here.vertices;
-            compared.different += here.different;
-            compared.largestTurn = std::max(compared.largestTurn, here.largestTurn);
+            compared.join(here);
         }
         const SuppleDirectOutput output = directOutput(pair.direct);
         const std::vector<uint32_t> words = as<uint32_t>(pair.direct.read(output.tables));
@@ -537,84 +360,6 @@ TEST_F(Direct, HasNoMemoryForVertices) {
     EXPECT_EQ(pair.stored.slotBytes(boxes[0], 1), pair.direct.slotBytes(boxes[1], 1));
 }
 
-/// Draws a group, whatever it has.
-class Drawing {
-public:
-    static constexpr uint32_t kSide = 256;
-
-    explicit Drawing(host::Device& device)
-        : device_(device),
-          target_(std::move(*host::DrawTarget::create(device, {kSide, kSide}, VK_SAMPLE_COUNT_1_BIT))) {}
-
-    host::Picture stored(const Crowd& crowd) {
-        const host::GroupOutput output = crowd.output();
-        const VkDescriptorSetLayout layout =
-            *host::createSetLayout(device_, {{0, kStorage, kVertex}, {1, kStorage, kVertex}});
-        host::DescriptorPool pool = std::move(*host::DescriptorPool::create(device_, 1));
-        const VkDescriptorSet set = *pool.allocate(layout);
-        pool.write(set, {host::storageBuffer(0, output.grid.rates[0].instances),
-                         host::storageBuffer(1, output.streams.vertices)});
-        return draw(output.grid, layout, set, ranges_vert,
-                    [&](uint32_t r) { return StoredPush{.range = shaderRange(output.grid, r)}; });
-    }
-    host::Picture direct(const Crowd& crowd, bool texels) {
-        const host::GroupOutput output = crowd.output();
-        const SuppleDirectOutput from = directOutput(crowd);
-        DirectSet set(device_, kVertex, texels);
-        set.write(output.grid.rates[0].instances, from,
-                  output.grid.rates[0].instances.buffer); // the fourth is not read
-        return draw(output.grid, set.layout(), set.set(),
-                    texels ? std::span<const uint32_t>(direct_vert_SUPPLE_PATCH_TEXELS)
-                           : std::span<const uint32_t>(direct_vert),
-                    [&](uint32_t r) { return PicturePush{.direct = from.ranges[r]}; });
-    }
-
-private:
-    static constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
-
-    template <class PushOf>
-    host::Picture draw(const SuppleGridOutput& grid, VkDescriptorSetLayout setLayout, VkDescriptorSet set,
-                       std::span<const uint32_t> shader, PushOf&& pushOf) {
-        using Push = decltype(pushOf(0u));
-        host::GraphicsDesc desc;
-        desc.name = "test direct";
-        desc.layout = *host::createPipelineLayout(device_, {setLayout}, sizeof(Push), kVertex);
-        desc.vertexShader = shader;
-        desc.fragmentShader = prop_frag;
-        desc.colors = {host::kPictureFormat};
-        desc.depth = host::kDepthFormat;
-        const VkPipeline pipeline = *host::createGraphicsPipeline(device_, desc);
-        constexpr VkImageLayout kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-        const Status drawn = device_.submitAndWait([&](VkCommandBuffer commands) {
-            const SuppleSyncScope any = kAnyUse;
-            host::imageBarrier(commands, target_.color(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kColor, any});
-            host::imageBarrier(commands, target_.depth(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kDepth, any});
-            const VkRenderingAttachmentInfo color = host::attachment(target_.color(), kColor);
-            host::beginRendering(commands, target_.extent(), {&color, 1},
-                                 host::attachment(target_.depth(), kDepth, {.depthStencil = {1.0f, 0}}));
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, desc.layout, 0, 1, &set, 0, nullptr);
-            vkCmdBindIndexBuffer(commands, grid.indices.buffer, grid.indices.offset, VK_INDEX_TYPE_UINT16);
-            for (uint32_t r = 0; r < grid.drawRangeCount; ++r) {
-                const Push push = pushOf(r);
-                vkCmdPushConstants(commands, desc.layout, kVertex, 0, sizeof(push), &push);
-                vkCmdDrawIndexedIndirect(commands, grid.indirect.buffer,
-                                         grid.indirect.offset + VkDeviceSize{r} * grid.indirect.stride, 1, 0);
-            }
-            vkCmdEndRendering(commands);
-            host::imageBarrier(commands, target_.color(), {kColor, any}, {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, any});
-        });
-        EXPECT_TRUE(drawn.ok());
-        Result<host::Picture> picture = host::readPicture(device_, target_.color());
-        EXPECT_TRUE(picture.ok());
-        return picture.ok() ? std::move(*picture) : host::Picture::blank(kSide, kSide);
-    }
-
-    host::Device& device_;
-    host::DrawTarget target_;
-};
-
 /// In a vertex shader: the same positions make the same picture, to the last pixel. Some instances hide a part.
 TEST_F(Direct, DrawsThePictureOfStoredVertices) {
     const ValidationGuard guard;
@@ -635,9 +380,9 @@ TEST_F(Direct, DrawsThePictureOfStoredVertices) {
         }
         own.run(crowd->group());
     }
-    Drawing drawing(own.device());
-    const host::Picture wanted = drawing.stored(stored), blank = host::Picture::blank(Drawing::kSide, Drawing::kSide);
-    EXPECT_NE(wanted.rgba, blank.rgba);
+    DirectPictures drawing(own.device());
+    const host::Picture wanted = drawing.stored(stored);
+    EXPECT_NE(wanted.rgba, Canvas::blank().rgba);
     EXPECT_EQ(drawing.direct(direct, true).rgba, wanted.rgba);
     EXPECT_EQ(drawing.direct(direct, false).rgba, wanted.rgba);
 }

@@ -1,11 +1,9 @@
 // All draw ranges of a group by one indirect call, as docs/integration.md and shaders/supple_surface.glsl say: it draws
 // the same picture as a call per range with push constants.
-#include "host/draw_target.h"
-#include "host/pipelines.h"
-#include "host/rendering.h"
 #include "shaders/prop_frag.h"
 #include "shaders/ranges_vert.h"
 #include "shaders/ranges_vert_DRAW_ID.h"
+#include "tests/support/canvas.h"
 #include "tests/support/crowd.h"
 #include "tests/support/shader_range.h"
 
@@ -15,8 +13,6 @@
 
 namespace supple::test {
 namespace {
-
-constexpr uint32_t kPictureSide = 256;
 
 struct RangePush {
     glm::vec4 window{};
@@ -35,7 +31,7 @@ std::vector<ShaderRange> shaderRanges(const SuppleGridOutput& grid) {
 class RangeDrawing {
 public:
     RangeDrawing(host::Device& device, const host::GroupOutput& output, std::span<const ShaderRange> ranges)
-        : device_(device), output_(output), ranges_(ranges.begin(), ranges.end()) {
+        : device_(device), output_(output), ranges_(ranges.begin(), ranges.end()), canvas_(device) {
         constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
         const VkDescriptorSetLayout setLayout =
@@ -48,40 +44,19 @@ public:
         pool_.write(set_, {host::storageBuffer(0, output.grid.rates[0].instances),
                            host::storageBuffer(1, output.streams.vertices),
                            host::storageBuffer(4, buffer_.handle(), 0, VK_WHOLE_SIZE)});
-        target_ = std::move(*host::DrawTarget::create(device, {kPictureSide, kPictureSide}, VK_SAMPLE_COUNT_1_BIT));
     }
 
     host::Picture draw(bool byDrawId, const glm::vec4& window) {
-        host::GraphicsDesc desc;
-        desc.name = "test ranges";
+        host::GraphicsDesc desc = Canvas::pipelineDesc("test ranges");
         desc.layout = layout_;
         desc.vertexShader =
             byDrawId ? std::span<const uint32_t>(ranges_vert_DRAW_ID) : std::span<const uint32_t>(ranges_vert);
         desc.fragmentShader = prop_frag;
-        desc.colors = {host::kPictureFormat};
-        desc.depth = host::kDepthFormat;
         const VkPipeline pipeline = *host::createGraphicsPipeline(device_, desc);
-        constexpr VkImageLayout kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-        EXPECT_TRUE(
-            device_
-                .submitAndWait([&](VkCommandBuffer commands) {
-                    const SuppleSyncScope any = kAnyUse;
-                    host::imageBarrier(commands, target_.color(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kColor, any});
-                    host::imageBarrier(commands, target_.depth(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kDepth, any});
-                    const VkRenderingAttachmentInfo color = host::attachment(target_.color(), kColor);
-                    host::beginRendering(commands, target_.extent(), {&color, 1},
-                                         host::attachment(target_.depth(), kDepth, {.depthStencil = {1.0f, 0}}));
-                    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-                    recordDraws(commands, byDrawId, window);
-                    vkCmdEndRendering(commands);
-                    host::imageBarrier(commands, target_.color(), {kColor, any},
-                                       {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, any});
-                })
-                .ok());
-        Result<host::Picture> picture = host::readPicture(device_, target_.color());
-        EXPECT_TRUE(picture.ok());
-        return picture.ok() ? std::move(*picture) : host::Picture::blank(kPictureSide, kPictureSide);
+        return canvas_.draw([&](VkCommandBuffer commands) {
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+            recordDraws(commands, byDrawId, window);
+        });
     }
 
 private:
@@ -113,7 +88,7 @@ private:
     host::DescriptorPool pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     host::Buffer buffer_;
-    host::DrawTarget target_;
+    Canvas canvas_;
 };
 
 uint32_t pixelsThatDiffer(const host::Picture& a, const host::Picture& b) {
@@ -135,7 +110,7 @@ TEST_F(DrawRanges, OfAGroupAreDrawnByOneCall) {
     const ValidationGuard guard;
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
     ASSERT_TRUE(own.valid());
-    const host::Picture blank = host::Picture::blank(kPictureSide, kPictureSide);
+    const host::Picture blank = Canvas::blank();
     for (const uint32_t flags : {0u, uint32_t{SUPPLE_GROUP_INDEXED_MESH}}) {
         SuppleGroupDesc desc{};
         desc.asset = own.asset(std::string(SUPPLE_SAMPLE_ASSETS) + "/helmet.glb"); // three materials
@@ -162,7 +137,7 @@ TEST_F(DrawRanges, OfAGroupAreDrawnByOneCall) {
         RangeDrawing drawing(own.device(), output, ranges);
         const host::Picture pushed = drawing.draw(false, window), byDrawId = drawing.draw(true, window);
         std::printf("%zu ranges, %u pixels\n", ranges.size(), pixelsThatDiffer(pushed, blank));
-        EXPECT_GT(pixelsThatDiffer(pushed, blank), kPictureSide * kPictureSide / 16);
+        EXPECT_GT(pixelsThatDiffer(pushed, blank), Canvas::kSide * Canvas::kSide / 16);
         EXPECT_EQ(pixelsThatDiffer(pushed, byDrawId), 0u);
         // And it can be told: with the ranges in another order they are other vertices.
         std::ranges::reverse(ranges);

@@ -2,14 +2,12 @@
 // palette on the device. The prop has the shape of a part of the cage that follows one joint alone, so that both must
 // cover the same pixels as that part of the deformed cage.
 #include "cage/gltf/reader.h"
-#include "host/draw_target.h"
-#include "host/pipelines.h"
-#include "host/rendering.h"
 #include "shaders/prop_frag.h"
 #include "shaders/prop_vert.h"
 #include "shaders/prop_vert_DUAL_QUATERNIONS.h"
 #include "shaders/prop_vert_PLACED.h"
 #include "shaders/prop_vert_SKINNED.h"
+#include "tests/support/canvas.h"
 #include "tests/support/crowd.h"
 #include "tests/support/sample_assets.h"
 
@@ -23,8 +21,6 @@
 
 namespace supple::test {
 namespace {
-
-constexpr uint32_t kSize = 256;
 
 /// Triangles of the cage that follow one joint alone.
 struct Part {
@@ -67,7 +63,7 @@ struct Push {
 class Drawing {
 public:
     Drawing(host::Device& device, const SuppleGroupInfo& info, std::span<const glm::vec4> prop, const Part& part)
-        : device_(device), vertexCount_(static_cast<uint32_t>(part.corners.size())) {
+        : device_(device), vertexCount_(static_cast<uint32_t>(part.corners.size())), canvas_(device) {
         constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
         const VkDescriptorSetLayout setLayout = *host::createSetLayout(
@@ -81,42 +77,20 @@ public:
         pool_.write(set_, {host::storageBuffer(0, info.poses), host::storageBuffer(1, prop_.handle(), 0, VK_WHOLE_SIZE),
                            host::storageBuffer(2, info.deformedCage),
                            host::storageBuffer(3, corners_.handle(), 0, VK_WHOLE_SIZE)});
-        target_ = std::move(*host::DrawTarget::create(device, {kSize, kSize}, VK_SAMPLE_COUNT_1_BIT));
     }
 
     host::Picture draw(std::span<const uint32_t> vertexShader, const Push& push) {
-        host::GraphicsDesc desc;
-        desc.name = "test prop";
+        host::GraphicsDesc desc = Canvas::pipelineDesc("test prop");
         desc.layout = layout_;
         desc.vertexShader = vertexShader;
         desc.fragmentShader = prop_frag;
-        desc.colors = {host::kPictureFormat};
-        desc.depth = host::kDepthFormat;
         const VkPipeline pipeline = *host::createGraphicsPipeline(device_, desc);
-        const SuppleSyncScope any = kAnyUse;
-        EXPECT_TRUE(
-            device_
-                .submitAndWait([&](VkCommandBuffer commands) {
-                    constexpr VkImageLayout kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                            kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-                    host::imageBarrier(commands, target_.color(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kColor, any});
-                    host::imageBarrier(commands, target_.depth(), {VK_IMAGE_LAYOUT_UNDEFINED, any}, {kDepth, any});
-                    const VkRenderingAttachmentInfo color = host::attachment(target_.color(), kColor);
-                    host::beginRendering(commands, {kSize, kSize}, {&color, 1},
-                                         host::attachment(target_.depth(), kDepth, {.depthStencil = {1.0f, 0}}));
-                    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-                    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set_, 0,
-                                            nullptr);
-                    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(push), &push);
-                    vkCmdDraw(commands, vertexCount_, 1, 0, 0);
-                    vkCmdEndRendering(commands);
-                    host::imageBarrier(commands, target_.color(), {kColor, any},
-                                       {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, any});
-                })
-                .ok());
-        Result<host::Picture> picture = host::readPicture(device_, target_.color());
-        EXPECT_TRUE(picture.ok());
-        return picture.ok() ? std::move(*picture) : host::Picture::blank(kSize, kSize);
+        return canvas_.draw([&](VkCommandBuffer commands) {
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set_, 0, nullptr);
+            vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(push), &push);
+            vkCmdDraw(commands, vertexCount_, 1, 0, 0);
+        });
     }
 
 private:
@@ -126,7 +100,7 @@ private:
     host::DescriptorPool pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     host::Buffer prop_, corners_;
-    host::DrawTarget target_;
+    Canvas canvas_;
 };
 
 /// Pixels of which some channel differs by more than the rounding of a color.
@@ -142,7 +116,7 @@ uint32_t different(const host::Picture& a, const host::Picture& b) {
     return count;
 }
 uint32_t covered(const host::Picture& picture) {
-    return different(picture, host::Picture::blank(kSize, kSize));
+    return different(picture, Canvas::blank());
 }
 
 class Prop : public CrowdContexts {
@@ -223,7 +197,7 @@ TEST_F(Prop, CoversWhatASkinnedPartCovers) {
             const host::Picture placed = drawing.draw(prop_vert_PLACED, push);
             std::printf("%u pixels; differ: %u by the palette, %u by the CPU's transform\n", covered(skinned),
                         different(skinned, palette), different(skinned, placed));
-            EXPECT_GT(covered(skinned), kSize * kSize / 16);
+            EXPECT_GT(covered(skinned), Canvas::kSide * Canvas::kSide / 16);
             EXPECT_LE(different(skinned, palette), 20u) << "but for rounding at edges";
             EXPECT_LE(different(skinned, placed), 20u);
             push.bind = glm::mat4(1.0f);

@@ -3,8 +3,8 @@
 #include "tests/support/spirv_precise.h"
 #include "tools/common/inside_output.h"
 
-#include <algorithm>
-#include <iterator>
+#include <array>
+#include <map>
 #include <tuple>
 
 namespace supple::test {
@@ -39,46 +39,49 @@ constexpr const char* kRandomCapacity = R"(
 /// What a record says its capacity's index is: any word.
 constexpr const char* kWrongCapacity = "place * samples, (patchIndex * 2654435761u) >> (patchIndex % 32u)));";
 
+/// A kernel with a piece of it replaced. Optimized, as the layouts have the bindings of their mapping alone. Each is
+/// compiled once in a process: that takes a second.
+const std::vector<uint32_t>& edited(const std::string& path, const std::string& from, const std::string& to,
+                                    const std::string& macros) {
+    static std::map<std::array<std::string, 4>, std::vector<uint32_t>> known;
+    const auto [found, isNew] = known.try_emplace({path, from, to, macros});
+    if (isNew) {
+        found->second = optimized(compileEdited(path, from, to, macros));
+    }
+    return found->second;
+}
+
 } // namespace
 
 RandomLevels::RandomLevels(const Options& options) : edges_(options.edges) {
     const std::string macros = options.mapping == SUPPLE_MAPPING_WIDE ? "-DWIDE" : "";
-    // Optimized, as the layouts have the bindings of their mapping alone.
-    const auto edgeLevels = [&](const std::string& borders) {
-        return optimized(compileEdited("lod/edge.comp",
-                                       "    scratchWords.at[levelBase(instance) + edge] = floatBitsToUint(level);",
-                                       kRandomEdge, macros + borders));
-    };
-    const auto patchLevels = [&](const std::string& borders) {
-        return optimized(
-            compileEdited("lod/patch.comp",
-                          "    uint bin = min(uint(at), kLodBins - 2u), weight = min(uint((at - float(bin)) * "
-                          "float(kSplitUnit)), kSplitUnit);",
-                          kRandomCapacity, macros + borders));
-    };
     surface::Shaders shaders = surface::Shaders::embedded();
     using surface::Kernel;
+    bool areThere = true;
+    const auto replace = [&](Kernel kernel, const std::vector<uint32_t>& words) {
+        shaders[kernel] = {words, words}; // of this mapping
+        areThere = areThere && !words.empty();
+    };
     const std::tuple<std::string, Kernel, Kernel> kBorders[] = {
         {"", Kernel::lodEdge, Kernel::lodPatch},
         {" -DHALVES", Kernel::lodEdgeHalves, Kernel::lodPatchHalves},
         {" -DCHARTS", Kernel::lodEdgeCharts, Kernel::lodPatchCharts},
         {" -DTRIANGLES", Kernel::lodEdgeTriangles, Kernel::lodPatchTriangles}};
-    compiled_.reserve(2 * std::size(kBorders) + 1); // shaders point into it
     for (const auto& [borders, edge, patch] : kBorders) {
-        const std::vector<uint32_t>& ofPatches = compiled_.emplace_back(patchLevels(borders));
-        shaders[patch] = {ofPatches, ofPatches}; // of this mapping
+        replace(patch, edited("lod/patch.comp",
+                              "    uint bin = min(uint(at), kLodBins - 2u), weight = min(uint((at - float(bin)) * "
+                              "float(kSplitUnit)), kSplitUnit);",
+                              kRandomCapacity, macros + borders));
         if (options.edges == Edges::random) {
-            const std::vector<uint32_t>& ofEdges = compiled_.emplace_back(edgeLevels(borders));
-            shaders[edge] = {ofEdges, ofEdges};
+            replace(edge,
+                    edited("lod/edge.comp", "    scratchWords.at[levelBase(instance) + edge] = floatBitsToUint(level);",
+                           kRandomEdge, macros + borders));
         }
     }
     if (options.wrongCapacities) {
-        const std::vector<uint32_t>& place = compiled_.emplace_back(
-            optimized(compileEdited("lod/place.comp", "place * samples, capacity));", kWrongCapacity, macros)));
-        shaders[Kernel::lodPlace] = {place, place};
+        replace(Kernel::lodPlace, edited("lod/place.comp", "place * samples, capacity));", kWrongCapacity, macros));
     }
-    if (testDevice() == nullptr ||
-        std::any_of(compiled_.begin(), compiled_.end(), [](const auto& words) { return words.empty(); })) {
+    if (testDevice() == nullptr || !areThere) {
         ADD_FAILURE() << "no device, or no shaders";
         return;
     }

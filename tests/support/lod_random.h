@@ -42,7 +42,6 @@ public:
     [[nodiscard]] std::optional<Drawn> draw(cage::Character character, SuppleGroupDesc desc, uint32_t vertexBudget = 0);
 
 private:
-    std::vector<std::vector<uint32_t>> compiled_;
     Edges edges_;
     std::unique_ptr<runtime::Context> context_;
     uint64_t view_ = 0, frame_ = 0;

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <gtest/gtest.h>
 #include <map>
 #include <regex>
@@ -450,19 +449,24 @@ std::vector<std::string> imprecisePositionArithmetic(std::span<const uint32_t> s
 
 namespace {
 
-/// GLSL below a copy of shaders/ that `edit` has changed. `flags`: of the compiler.
-std::vector<uint32_t> compileCopy(const std::string& path, const std::string& flags,
-                                  const std::function<void(const std::filesystem::path& shaders)>& edit) {
+/// Files below shaders/ that stand in for those of the tree, by their paths there.
+using Edits = std::map<std::filesystem::path, std::string>;
+
+/// GLSL below shaders/ with some files edited. `flags`: of the compiler.
+std::vector<uint32_t> compileOver(const std::string& path, const std::string& flags, const Edits& edits) {
     namespace fs = std::filesystem;
-    const fs::path root = fs::temp_directory_path() / ("supple_precise_" + std::to_string(getpid()));
+    const fs::path root = fs::temp_directory_path() / ("supple_precise_" + std::to_string(getpid())),
+                   source = SUPPLE_SOURCE_DIR;
     fs::remove_all(root);
     fs::create_directories(root);
-    fs::copy(fs::path(SUPPLE_SOURCE_DIR) / "shaders", root / "shaders", fs::copy_options::recursive);
-    edit(root / "shaders");
-    const fs::path output = root / "out.spv";
+    for (const auto& [edited, text] : edits) {
+        fs::create_directories((root / "shaders" / edited).parent_path());
+        std::ofstream(root / "shaders" / edited) << text;
+    }
+    const fs::path output = root / "out.spv", from = edits.contains(path) ? root : source;
     const std::string command = std::string(SUPPLE_GLSLANG_COMMAND) + " --quiet -g -V --target-env vulkan1.1 -I" +
-                                root.string() + flags + " -o " + output.string() + " " +
-                                (root / "shaders" / path).string();
+                                root.string() + " -I" + source.string() + flags + " -o " + output.string() + " " +
+                                (from / "shaders" / path).string();
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     std::vector<uint32_t> words = readWords(output);
     fs::remove_all(root);
@@ -473,31 +477,33 @@ std::vector<uint32_t> compileCopy(const std::string& path, const std::string& fl
 
 std::vector<uint32_t> compileShader(const std::string& path, const std::string& strip, const std::string& macros) {
     namespace fs = std::filesystem;
-    return compileCopy(path, " " + macros, [&](const fs::path& shaders) {
-        if (strip.empty()) {
-            return;
+    Edits edits;
+    uint32_t removals = 0;
+    const fs::path shaders = fs::path(SUPPLE_SOURCE_DIR) / "shaders";
+    for (const auto& entry : fs::recursive_directory_iterator(shaders)) {
+        if (strip.empty() || !entry.is_regular_file()) {
+            continue;
         }
-        uint32_t removals = 0;
-        for (const auto& entry : fs::recursive_directory_iterator(shaders)) {
-            if (entry.is_regular_file()) {
-                const std::string text = readText(entry.path());
-                std::ofstream(entry.path()) << stripped(text, strip, removals);
-            }
+        const std::string text = readText(entry.path());
+        const bool mayHaveIt = strip == "*" || text.find(strip + "(") != std::string::npos; // searching it takes long
+        if (std::string less = mayHaveIt ? stripped(text, strip, removals) : text; less != text) {
+            edits.emplace(fs::relative(entry.path(), shaders), std::move(less));
         }
-        EXPECT_GT(removals, 0u) << strip << " has no precise to strip";
-    });
+    }
+    EXPECT_EQ(removals > 0, !strip.empty()) << strip << " has no precise to strip";
+    return compileOver(path, " " + macros, edits);
 }
 
 std::vector<uint32_t> compileEdited(const std::string& path, const std::string& from, const std::string& to,
                                     const std::string& macros) {
-    return compileCopy(path, " " + macros, [&](const std::filesystem::path& shaders) {
-        std::string text = readText(shaders / path);
-        const size_t at = text.find(from);
-        ASSERT_NE(at, std::string::npos) << path << " has no " << from;
-        ASSERT_EQ(text.find(from, at + 1), std::string::npos);
-        text.replace(at, from.size(), to);
-        std::ofstream(shaders / path) << text;
-    });
+    std::string text = readText(std::filesystem::path(SUPPLE_SOURCE_DIR) / "shaders" / path);
+    const size_t at = text.find(from);
+    if (at == std::string::npos || text.find(from, at + 1) != std::string::npos) {
+        ADD_FAILURE() << path << " does not have this once: " << from;
+        return {};
+    }
+    text.replace(at, from.size(), to);
+    return compileOver(path, " " + macros, {{path, text}});
 }
 
 std::vector<uint32_t> optimized(const std::vector<uint32_t>& spirv) {

@@ -303,9 +303,12 @@ TEST(ViewProps, PropsMoveWithTheFigure) {
     stage.settings.simulate = false;
     const SuppleSurfacePoint at = world.chest();
     for (const Prop prop : {Prop::lantern, Prop::arrow, Prop::sticker}) {
+        std::vector<uint8_t> before; // without a prop, at the time before
         for (const double time : {0.0, 0.35}) {
             stage.settings.time = time;
             const host::Picture without = world.draw();
+            EXPECT_NE(without.rgba, before) << "the figure moves";
+            before = without.rgba;
             ASSERT_TRUE(stage.attach({prop, at}).ok());
             const host::Picture with = world.draw();
             const SuppleSurfaceJet jet = world.jetsAt({at})[0];

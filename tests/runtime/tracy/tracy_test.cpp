@@ -81,7 +81,7 @@ protected:
         ASSERT_EQ(suppleBeginFrame(context_->handle(), next, next - 1), SUPPLE_OK);
     }
 
-    std::unique_ptr<host::Device> device_ = host::mustCreateDevice(false);
+    std::unique_ptr<host::Device> device_ = host::mustCreateDevice();
     std::unique_ptr<host::Context> context_ = host::must(host::Context::create(*device_));
     SuppleAsset asset_{};
     SuppleGroup group_{};
