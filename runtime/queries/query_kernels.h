@@ -3,6 +3,7 @@
 
 #include "gpu/dispatches.h"
 #include "gpu/pipelines.h"
+#include "runtime/queries/tree_kernels.h"
 #include "shaders/shared/queries.h"
 
 namespace supple::runtime {
@@ -14,11 +15,19 @@ public:
     /// Makes the pipelines, if they are not there.
     [[nodiscard]] Status prepare();
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
+    /// Those of many rays, which are prepared by themselves.
+    [[nodiscard]] const TreeKernels& trees() const { return trees_; }
+    [[nodiscard]] Status prepareTrees() { return trees_.prepare(); }
 
     // The kernels must have been prepared. A barrier (compute to compute) is to come before each but the first.
     void recordBoxes(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
-    /// For all rays, by as many dispatches as lanes can be numbered in.
-    void recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, shared::QueryPush push) const;
+    /// Which instances rays are aimed at, by as many dispatches as lanes can be numbered in.
+    void recordAim(gpu::Dispatches& dispatches, const gpu::BoundSet& set, shared::QueryPush push) const;
+    /// Lists these. A barrier that lets indirect commands be read is to come behind it.
+    void recordList(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
+    /// For kRaysPerLane rays at most. `sizes`: what the list has written.
+    void recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push,
+                    VkBuffer sizes) const;
     /// Hits of triangles, over misses.
     void recordRefine(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
     void recordFinish(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
@@ -27,7 +36,8 @@ private:
     const gpu::Device* device_ = nullptr;
     gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::Kernel boxes_, pick_, finish_, refine_;
+    TreeKernels trees_;
+    gpu::Kernel boxes_, aim_, list_, pick_, finish_, refine_;
 };
 
 } // namespace supple::runtime
