@@ -708,7 +708,8 @@ Status Context::record(VkCommandBuffer commandBuffer, const SuppleRecordDesc& de
     if ((desc.flags & SUPPLE_RECORD_TIMINGS) != 0) {
         uint32_t surfaces = 0;
         frame.forEach([&](Group& group) { surfaces += static_cast<uint32_t>(group.surfaces().size()); });
-        timing = timings.open(commandBuffer, surfaces, static_cast<uint32_t>(stages_.rows().size()));
+        timing =
+            timings.open(commandBuffer, Timings::mostEntries(surfaces, static_cast<uint32_t>(stages_.rows().size())));
     }
     recordPass(frame, kUploads, timing);
     const Separated groups = separate(*linked, [this](const Group& group) { return !group.waitsIn(frame_); });

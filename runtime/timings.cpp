@@ -8,7 +8,7 @@
 
 namespace supple::runtime {
 
-static_assert(kPassCount == SUPPLE_PASS_POINTS + 1, "add the name of the pass");
+static_assert(kPassCount == SUPPLE_PASS_QUERIES + 1, "add the name of the pass");
 
 const char* passName(SupplePass pass) {
     const uint32_t index = rawValue(pass);
@@ -116,11 +116,10 @@ void Timings::cancelFrame() {
     current_->timers.clear();
 }
 
-Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint32_t surfaceCount, uint32_t stageCount) {
+Timings::Recording Timings::open(VkCommandBuffer commandBuffer, uint64_t entries) {
     Recording recording;
     if (timestamps_) {
-        const auto wanted = static_cast<uint32_t>(
-            std::min<uint64_t>(uint64_t{surfaceCount} * (kMostEntries + stageCount), uint64_t{SUPPLE_MAX_TIMINGS}) + 1);
+        const auto wanted = static_cast<uint32_t>(std::min<uint64_t>(entries, SUPPLE_MAX_TIMINGS) + 1);
         if (!current_->timers.take(commandBuffer, wanted, recording.mark_)) {
             return recording;
         }

@@ -22,13 +22,14 @@ namespace supple::runtime {
 /// By SupplePass. That of all passes together stands in warnings.
 inline constexpr const char* kPassNames[] = {"all passes", "upload",   "attributes", "pose",      "deform", "bounds",
                                              "list",       "vertex",   "assemble",   "patch",     "level",  "solve",
-                                             "place",      "evaluate", "motion",     "shortfall", "points"};
+                                             "place",      "evaluate", "motion",     "shortfall", "points", "queries"};
 inline constexpr size_t kPassCount = std::size(kPassNames);
 [[nodiscard]] const char* passName(SupplePass pass);
 /// The most entries that a group can have in a frame, for each of its surfaces, beside one for every cage stage. Pose
 /// comes up to six times, bounds again for occlusion, level for patches, assemble and place for chains of leaves,
-/// place for rates, and attributes if some surfaces have levels and others rates. Two of the names are no passes.
-inline constexpr size_t kMostEntries = kPassCount - 2 + 9;
+/// place for rates, and attributes if some surfaces have levels and others rates. Two of the names are no passes, and
+/// queries are recorded by themselves.
+inline constexpr size_t kMostEntries = kPassCount - 3 + 9;
 
 class Timings {
 public:
@@ -64,8 +65,14 @@ public:
         uint32_t first_ = 0, mark_ = 0; ///< timestamps: the first, and the last that is recorded
         std::chrono::steady_clock::time_point passBegin_;
     };
-    /// Makes room for as many passes as groups can have that have so many surfaces together.
-    [[nodiscard]] Recording open(VkCommandBuffer commandBuffer, uint32_t surfaceCount, uint32_t stageCount);
+    /// Makes room for so many passes.
+    [[nodiscard]] Recording open(VkCommandBuffer commandBuffer, uint64_t entries);
+    /// How many passes groups can have that have so many surfaces together.
+    [[nodiscard]] static uint64_t mostEntries(uint32_t surfaceCount, uint32_t stageCount) {
+        return uint64_t{surfaceCount} * (kMostEntries + stageCount);
+    }
+    /// Whether anything of the frame has been measured so far.
+    [[nodiscard]] bool measuresFrame() const { return current_->count.load() > 0; }
 
     /// The newest completed frame; empty when there is none.
     [[nodiscard]] const std::vector<SuppleTiming>& latest() const { return latest_; }

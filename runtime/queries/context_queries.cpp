@@ -1,6 +1,7 @@
 // The query pools of a context.
 #include "gpu/barriers.h"
 #include "runtime/context.h"
+#include "runtime/queries/piece_tree.h"
 #include "runtime/queries/triangle_faces.h"
 
 #include <limits>
@@ -47,7 +48,9 @@ Result<std::shared_ptr<QueryGroup>> Context::queryGroup(const std::shared_ptr<Gr
     if (!kernels) {
         return kernels.error();
     }
-    if (const Status prepared = (*kernels)->prepare(); !prepared) {
+    Status prepared = (*kernels)->prepare();
+    prepared = prepared && buffers.areMany() ? (*kernels)->prepareTrees() : prepared;
+    if (!prepared) {
         return prepared.error();
     }
     if (pieces == nullptr) {
@@ -59,11 +62,19 @@ Result<std::shared_ptr<QueryGroup>> Context::queryGroup(const std::shared_ptr<Gr
         if (!table) {
             return table.error();
         }
+        const Result<uint32_t> firstLeaf =
+            buffers.areMany()
+                ? addLeaves(*table, group->asset().character.cage.positions, QueryPieces::mostElements(*device_))
+                : Result<uint32_t>(0u);
+        if (!firstLeaf) {
+            return firstLeaf.error();
+        }
         auto made = QueryPieces::create(*device_, std::move(*table));
         if (!made) {
             return made.error();
         }
         pieces = std::move(*made);
+        pieces->firstLeaf = *firstLeaf;
     }
     return QueryGroup::create(sourceOf(group), **kernels, std::move(pieces), buffers);
 }
@@ -192,8 +203,15 @@ Status Context::recordQueries(VkCommandBuffer commandBuffer, QueryPool& pool, co
         return asked;
     }
     device_->beginLabel(commandBuffer, "supple queries");
+    Timings::Recording timing;
+    if (timings.measuresFrame()) {
+        timing = timings.open(commandBuffer, 1);
+    }
+    timing.beginPass();
     gpu::memoryBarrier(*device_, commandBuffer,
-                       {desc.before.stages | kQueryWrites.stages, desc.before.access | kQueryWrites.access}, kQueryAll);
+                       {desc.before.stages | kQueryWrites.stages | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                        desc.before.access | kQueryWrites.access},
+                       kQueryAll);
     {
         const std::scoped_lock lock(uploading_);
         pool.recordStatics(commandBuffer, frame_);
@@ -207,6 +225,9 @@ Status Context::recordQueries(VkCommandBuffer commandBuffer, QueryPool& pool, co
                  {desc.hostPlaces, desc.places.buffer, desc.places.offset, sizeof(SupplePlace)},
                  desc.rayCount,
                  (desc.flags & SUPPLE_QUERY_READ_BACK) != 0});
+    timing.endPass(SUPPLE_PASS_QUERIES, {}, SUPPLE_NO_SURFACE,
+                   {desc.rayCount, desc.rayCount * uint64_t{sizeof(SuppleHit)}});
+    timing.end();
     if (desc.after.stages != 0) {
         gpu::memoryBarrier(*device_, commandBuffer, kQueryWrites, {desc.after.stages, desc.after.access});
     }

@@ -23,7 +23,7 @@ Status NearestKernels::prepare(gpu::Pipelines& pipelines, const gpu::ComputeLayo
 
 void NearestKernels::recordFind(gpu::Dispatches& dispatches, const gpu::BoundSet& set,
                                 const shared::QueryPush& push) const {
-    QueryKernels::recordPieces(dispatches, find_, set, push);
+    QueryKernels::recordRays(dispatches, find_, set, push, uint64_t{push.pieceCount} * push.instanceCount);
 }
 
 void NearestKernels::recordFinish(gpu::Dispatches& dispatches, const gpu::BoundSet& set,

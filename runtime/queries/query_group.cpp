@@ -47,7 +47,8 @@ Result<std::shared_ptr<QueryGroup>> QueryGroup::create(QuerySource source, const
     group->source_ = std::move(source);
     group->kernels_ = &kernels;
     group->pieces_ = std::move(pieces);
-    Status status = group->createBuffers();
+    Status status = buffers.areMany() ? group->createTree() : success();
+    status = status ? group->createBuffers() : status;
     status = status ? group->createSets(buffers) : status;
     if (!status) {
         return status.error();
@@ -55,9 +56,21 @@ Result<std::shared_ptr<QueryGroup>> QueryGroup::create(QuerySource source, const
     return group;
 }
 
+Status QueryGroup::createTree() {
+    const InstanceWindows& windows = source_.listing->windows();
+    const Result<QueryTree::Plan> plan = QueryTree::planFor(*source_.device, pieces_->count, windows.size);
+    if (!plan) {
+        return plan.error();
+    }
+    tree_ = std::make_unique<QueryTree>();
+    return tree_->create(*source_.device, kernels_->trees(), pieces_->count, *plan, windows.count());
+}
+
 Status QueryGroup::createBuffers() {
-    const gpu::BufferRequest request{"supple query boxes", kBoxBytes * source_.listing->windows().capacity,
-                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryPurpose::scratch};
+    const VkDeviceSize dispatches = VkDeviceSize{dispatchesEach()} * windowCount() * gpu::kVec4Bytes;
+    const gpu::BufferRequest request{"supple query boxes", kBoxBytes * source_.listing->windows().capacity + dispatches,
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                                     gpu::MemoryPurpose::scratch};
     Result<gpu::BufferSet> made = gpu::BufferSet::create(*source_.device, {&request, 1}, gpu::MemoryKind::deviceLocal);
     if (!made) {
         return made.error();
@@ -106,6 +119,9 @@ Status QueryGroup::createSets(const QueryBuffers& buffers) {
         if (status) {
             sets_.write(device, kernels_->layout(), w, resources);
         }
+        if (status && tree_ != nullptr) {
+            tree_->write(device, w, resources);
+        }
     }
     return status;
 }
@@ -133,11 +149,15 @@ void QueryGroup::forWindows(const Batch& batch, F&& record) const {
     push.reach = pieces_->reach;
     push.firstTriangle = batch.firstTriangle;
     push.rate = batch.rate;
+    push.firstLeaf = pieces_->firstLeaf;
+    push.treeCount = tree_ != nullptr ? tree_->plan().count : 0;
+    push.turns = tree_ != nullptr ? tree_->plan().turns : 0;
     for (uint32_t w = 0; w < windows.count(); ++w) {
         push.firstEntry = windows.firstEntry(w);
         push.instanceCount = batch.isEmpty ? 0 : windows.listed[w].count;
         push.firstBox = push.firstSlot = windows.firstSlot(w);
         push.writesMisses = batch.writesMisses && w == 0 ? 1 : 0;
+        push.firstDispatch = 2 * windows.capacity + dispatchesEach() * w;
         record(sets_[w], push);
         push.firstLane += push.pieceCount * push.instanceCount;
     }
@@ -151,11 +171,40 @@ void QueryGroup::recordBoxes(gpu::Dispatches& dispatches, const Batch& batch) co
     });
 }
 
+void QueryGroup::recordAim(gpu::Dispatches& dispatches, const Batch& batch) const {
+    forWindows(batch, [&](const gpu::BoundSet& set, const QueryPush& push) {
+        if (push.instanceCount > 0) {
+            kernels_->recordAim(dispatches, set, push);
+        }
+    });
+}
+
+void QueryGroup::recordList(gpu::Dispatches& dispatches, const Batch& batch) const {
+    forWindows(batch, [&](const gpu::BoundSet& set, const QueryPush& push) {
+        if (push.instanceCount > 0) {
+            kernels_->recordList(dispatches, set, push);
+        }
+    });
+}
+
 void QueryGroup::recordPick(gpu::Dispatches& dispatches, const Batch& batch, uint32_t work) const {
     forWindows(batch, [&](const gpu::BoundSet& set, QueryPush push) {
         push.work = work;
         if (push.instanceCount > 0 && push.pieceCount > 0) {
-            kernels_->recordPick(dispatches, set, push);
+            kernels_->recordPick(dispatches, set, push, boxes_.buffer(0));
+        }
+    });
+}
+
+void QueryGroup::recordTree(gpu::Dispatches& dispatches, const Batch& batch, TreeKernels::Pass pass,
+                            uint32_t turn) const {
+    const InstanceWindows& windows = source_.listing->windows();
+    forWindows(batch, [&](const gpu::BoundSet& /*set*/, QueryPush push) {
+        // Windows have the trees one after the other.
+        const uint32_t window = push.firstSlot / windows.size;
+        push.turn = turn % push.turns;
+        if (push.instanceCount > 0 && push.pieceCount > 0 && turn / push.turns == window) {
+            tree_->record(dispatches, pass, window, push, boxes_.buffer(0));
         }
     });
 }

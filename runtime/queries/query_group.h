@@ -7,6 +7,7 @@
 #include "runtime/instance_listing.h"
 #include "runtime/queries/query_kernels.h"
 #include "runtime/queries/query_pieces.h"
+#include "runtime/queries/query_tree.h"
 #include "runtime/surfaces.h"
 
 #include <cstdint>
@@ -20,6 +21,7 @@ struct QueryPieces {
     std::vector<FacePieces> ofFaces;
     uint32_t count = 0;
     float reach = 0.0f;
+    uint32_t firstLeaf = 0; ///< element of the table (addLeaves); 0: there are none
 
     [[nodiscard]] static Result<std::shared_ptr<QueryPieces>> create(const gpu::Device& device, PieceTable table);
     /// How many elements of a table the device binds.
@@ -39,6 +41,10 @@ struct QuerySource {
 /// The buffers of the pool.
 struct QueryBuffers {
     VkBuffer rays = VK_NULL_HANDLE, best = VK_NULL_HANDLE, hits = VK_NULL_HANDLE;
+    uint32_t rayCount = 0; ///< of a frame, at most
+
+    /// More rays than a lane looks at go through trees.
+    [[nodiscard]] bool areMany() const { return rayCount > shared::kRaysPerLane; }
 };
 
 class QueryGroup {
@@ -74,7 +80,13 @@ public:
     /// How many lanes look at pieces in the frame that is recorded.
     [[nodiscard]] uint32_t lanes() const;
     void recordBoxes(gpu::Dispatches& dispatches, const Batch& batch) const;
+    /// Which instances rays are aimed at, then their list. What is behind works on these alone.
+    void recordAim(gpu::Dispatches& dispatches, const Batch& batch) const;
+    void recordList(gpu::Dispatches& dispatches, const Batch& batch) const;
     void recordPick(gpu::Dispatches& dispatches, const Batch& batch, uint32_t work) const;
+    /// How often trees are made in turn until all instances have had one; 0: the pool is for few rays.
+    [[nodiscard]] uint32_t turns() const { return tree_ != nullptr ? tree_->plan().turns * windowCount() : 0; }
+    void recordTree(gpu::Dispatches& dispatches, const Batch& batch, TreeKernels::Pass pass, uint32_t turn) const;
     void recordFinish(gpu::Dispatches& dispatches, const Batch& batch) const;
     // The same of places whose nearest points are asked for.
     void recordNearest(gpu::Dispatches& dispatches, const Batch& batch, uint32_t work) const;
@@ -82,9 +94,18 @@ public:
     /// Hits of triangles, over misses.
     void recordRefine(gpu::Dispatches& dispatches, const Batch& batch) const;
 
+    /// Null: the pool is for few rays.
+    [[nodiscard]] const QueryTree* tree() const { return tree_.get(); }
+
 private:
     [[nodiscard]] Status createBuffers();
+    [[nodiscard]] Status createTree();
     [[nodiscard]] Status createSets(const QueryBuffers& buffers);
+    [[nodiscard]] uint32_t windowCount() const { return source_.listing->windows().count(); }
+    /// Dispatches whose sizes a window's list writes.
+    [[nodiscard]] uint32_t dispatchesEach() const {
+        return 1 + (tree_ != nullptr ? shared::kTreeDispatches * tree_->plan().turns : 0);
+    }
     /// Calls record(set, push) for each window, also for those without instances.
     template <class F>
     void forWindows(const Batch& batch, F&& record) const;
@@ -92,7 +113,8 @@ private:
     QuerySource source_;
     const QueryKernels* kernels_ = nullptr;
     std::shared_ptr<QueryPieces> pieces_;
-    gpu::BufferSet boxes_;
+    gpu::BufferSet boxes_; ///< and what is listed of them
+    std::unique_ptr<QueryTree> tree_;
     std::unique_ptr<gpu::StaticBuffers> triangles_; ///< triangleFaces()
     gpu::TexelViews views_;
     gpu::BoundSets sets_; ///< by window

@@ -1,7 +1,9 @@
 #include "runtime/queries/query_kernels.h"
 
+#include "shaders/queries_aim_comp.h"
 #include "shaders/queries_boxes_comp.h"
 #include "shaders/queries_finish_comp.h"
+#include "shaders/queries_list_comp.h"
 #include "shaders/queries_pick_comp.h"
 #include "shaders/queries_refine_comp.h"
 #include "supple/supple_queries.h"
@@ -40,12 +42,19 @@ Result<QueryKernels> QueryKernels::create(const gpu::Device& device, gpu::Pipeli
         return layout.error();
     }
     made.layout_ = std::move(*layout);
+    Result<TreeKernels> trees = TreeKernels::create(device, pipelines);
+    if (!trees) {
+        return trees.error();
+    }
+    made.trees_ = std::move(*trees);
     return made;
 }
 
 Status QueryKernels::prepare() {
     gpu::Pipelines::Batch batch(*pipelines_);
     const gpu::Kernel boxes = batch.get(layout_, queries_boxes_comp, {}, "supple queries, boxes"),
+                      aim = batch.get(layout_, queries_aim_comp, {}, "supple queries, aim"),
+                      list = batch.get(layout_, queries_list_comp, {}, "supple queries, list"),
                       pick = batch.get(layout_, queries_pick_comp, {}, "supple queries, pick"),
                       finish = batch.get(layout_, queries_finish_comp, {}, "supple queries, hits"),
                       refine = batch.get(layout_, queries_refine_comp, {}, "supple queries, refine");
@@ -53,6 +62,8 @@ Status QueryKernels::prepare() {
         return made;
     }
     boxes_ = boxes;
+    aim_ = aim;
+    list_ = list;
     pick_ = pick;
     finish_ = finish;
     refine_ = refine;
@@ -64,14 +75,13 @@ void QueryKernels::recordBoxes(gpu::Dispatches& dispatches, const gpu::BoundSet&
     dispatches.dispatch(boxes_, set, push, (push.instanceCount + local - 1) / local);
 }
 
-void QueryKernels::recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
-    recordPieces(dispatches, pick_, set, push);
+void QueryKernels::recordAim(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
+    recordRays(dispatches, aim_, set, push, push.instanceCount);
 }
 
-void QueryKernels::recordPieces(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
-                                QueryPush push) {
-    const uint64_t local = dispatches.device().mapping.localSize,
-                   lanes = uint64_t{push.pieceCount} * push.instanceCount;
+void QueryKernels::recordRays(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
+                              QueryPush push, uint64_t lanes) {
+    const uint64_t local = dispatches.device().mapping.localSize;
     const auto rays =
         static_cast<uint32_t>(std::min<uint64_t>(std::max<uint64_t>(kMostLanes / std::max<uint64_t>(lanes, 1), 1),
                                                  UINT32_MAX / kRaysPerLane) *
@@ -83,6 +93,16 @@ void QueryKernels::recordPieces(gpu::Dispatches& dispatches, const gpu::Kernel& 
         const uint64_t blocks = (push.rayCount - first + kRaysPerLane - 1) / kRaysPerLane;
         dispatches.dispatch(kernel, set, push, (lanes * blocks + local - 1) / local);
     }
+}
+
+void QueryKernels::recordList(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
+    dispatches.dispatch(list_, set, push, 1);
+}
+
+void QueryKernels::recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push,
+                              VkBuffer sizes) const {
+    dispatches.dispatchIndirect(pick_, set, std::as_bytes(std::span(&push, 1)), sizes,
+                                VkDeviceSize{push.firstDispatch} * gpu::kVec4Bytes);
 }
 
 void QueryKernels::recordRefine(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {

@@ -4,6 +4,7 @@
 #include "gpu/dispatches.h"
 #include "gpu/pipelines.h"
 #include "runtime/queries/nearest_kernels.h"
+#include "runtime/queries/tree_kernels.h"
 #include "shaders/shared/queries.h"
 
 namespace supple::runtime {
@@ -18,25 +19,35 @@ public:
     [[nodiscard]] Status prepareNearest() { return nearest_.prepare(*pipelines_, layout_); }
     [[nodiscard]] const NearestKernels& nearest() const { return nearest_; }
     [[nodiscard]] const gpu::ComputeLayout& layout() const { return layout_; }
+    /// Those of many rays, which are prepared by themselves.
+    [[nodiscard]] const TreeKernels& trees() const { return trees_; }
+    [[nodiscard]] Status prepareTrees() { return trees_.prepare(); }
 
     // The kernels must have been prepared. A barrier (compute to compute) is to come before each but the first.
     void recordBoxes(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
-    /// For all rays, by as many dispatches as lanes can be numbered in.
-    void recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
+    /// Which instances rays are aimed at.
+    void recordAim(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
+    /// Lists these. A barrier that lets indirect commands be read is to come behind it.
+    void recordList(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
+    /// For kRaysPerLane rays at most. `sizes`: what the list has written.
+    void recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push,
+                    VkBuffer sizes) const;
     /// Hits of triangles, over misses.
     void recordRefine(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
     void recordFinish(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const shared::QueryPush& push) const;
 
-    /// A lane a piece, an instance and a block of rays or places.
-    static void recordPieces(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
-                             shared::QueryPush push);
+    /// For all rays or places: as many lanes for each block of kRaysPerLane of them, by as many dispatches as lanes can
+    /// be numbered in.
+    static void recordRays(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
+                           shared::QueryPush push, uint64_t lanes);
 
 private:
     const gpu::Device* device_ = nullptr;
     gpu::Pipelines* pipelines_ = nullptr;
     gpu::ComputeLayout layout_;
-    gpu::Kernel boxes_, pick_, finish_, refine_;
     NearestKernels nearest_;
+    TreeKernels trees_;
+    gpu::Kernel boxes_, aim_, list_, pick_, finish_, refine_;
 };
 
 } // namespace supple::runtime

@@ -124,12 +124,48 @@ void QueryPool::recordEach(gpu::Dispatches& dispatches, uint32_t rays, F&& recor
 }
 
 void QueryPool::recordPick(gpu::Dispatches& dispatches, uint32_t rays) const {
-    const auto each = [&](auto&& record) { recordEach(dispatches, rays, record); };
-    each([&](const QueryGroup& group, const QueryGroup::Batch& batch) { group.recordBoxes(dispatches, batch); });
     for (const uint32_t work : {shared::kFindLeast, shared::kFindOwner}) {
-        each([&](const QueryGroup& group, const QueryGroup::Batch& batch) {
+        recordEach(dispatches, rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
             group.recordPick(dispatches, batch, work);
         });
+    }
+}
+
+void QueryPool::recordCast(gpu::Dispatches& dispatches, uint32_t rays) const {
+    using Pass = TreeKernels::Pass;
+    uint32_t turns = 0;
+    forAsked(rays, [&](const QueryGroup& group, const QueryGroup::Batch& /*batch*/) {
+        turns = std::max(turns, group.turns());
+    });
+    for (uint32_t turn = 0; turn < turns; ++turn) {
+        for (const Pass pass : {Pass::fit, Pass::refit, Pass::cast}) {
+            recordEach(dispatches, rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
+                if (turn < group.turns()) {
+                    group.recordTree(dispatches, batch, pass, turn);
+                }
+                if (pass == Pass::cast) {
+                    dispatches.computeBarrier(); // the next group's rays begin with what these have met
+                }
+            });
+        }
+    }
+}
+
+void QueryPool::recordRays(gpu::Dispatches& dispatches, uint32_t rays) const {
+    const auto each = [&](auto&& record) { recordEach(dispatches, rays, record); };
+    each([&](const QueryGroup& group, const QueryGroup::Batch& batch) { group.recordBoxes(dispatches, batch); });
+    each([&](const QueryGroup& group, const QueryGroup::Batch& batch) { group.recordAim(dispatches, batch); });
+    forAsked(rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
+        group.recordList(dispatches, batch);
+        dispatches.disjointBarrier();
+    });
+    gpu::memoryBarrier(*owner_, dispatches.commandBuffer(), {kCompute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT},
+                       {kByKernels.stages | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                        kByKernels.access | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+    if (rays > shared::kRaysPerLane) {
+        recordCast(dispatches, rays);
+    } else {
+        recordPick(dispatches, rays);
     }
     forAsked(rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
         group.recordFinish(dispatches, batch);
@@ -178,7 +214,7 @@ void QueryPool::record(VkCommandBuffer commandBuffer, uint64_t frame, const Aske
     } else if (asked.triangles.isThere()) {
         recordRefine(dispatches, asked.count);
     } else {
-        recordPick(dispatches, asked.count);
+        recordRays(dispatches, asked.count);
     }
     if (asked.readsBack) {
         recordReadback(commandBuffer, frame, asked.count);

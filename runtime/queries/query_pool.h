@@ -40,7 +40,9 @@ public:
     /// `group`: null, and the member is gone. Frames up to `lastFrame` may still use what it was.
     void put(Member& member, std::shared_ptr<QueryGroup> group, uint64_t lastFrame);
     /// What its groups are made with.
-    [[nodiscard]] QueryBuffers buffers() const { return {device_.buffer(0), device_.buffer(1), device_.buffer(2)}; }
+    [[nodiscard]] QueryBuffers buffers() const {
+        return {device_.buffer(0), device_.buffer(1), device_.buffer(2), rayCount_};
+    }
 
     void fill(SuppleQueryOutput& out) const;
     [[nodiscard]] uint32_t rayCount() const { return rayCount_; }
@@ -98,7 +100,13 @@ private:
     void forAsked(uint32_t rays, F&& record) const;
     /// Copies to the rays, from their element `first` on.
     void recordCopy(VkCommandBuffer commandBuffer, const Source& source, uint32_t first, uint32_t count) const;
+    /// Calls record(group, batch) for those that are asked, with a barrier behind all.
+    template <class F>
+    void recordEach(gpu::Dispatches& dispatches, uint32_t rays, F&& record) const;
+    void recordRays(gpu::Dispatches& dispatches, uint32_t rays) const;
+    /// What few rays meet, and many.
     void recordPick(gpu::Dispatches& dispatches, uint32_t rays) const;
+    void recordCast(gpu::Dispatches& dispatches, uint32_t rays) const;
     void recordRefine(gpu::Dispatches& dispatches, uint32_t rays) const;
     void recordNearest(gpu::Dispatches& dispatches, uint32_t places) const;
     /// Calls record(group, batch) for those that are asked, with a barrier behind all.

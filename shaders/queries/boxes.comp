@@ -35,6 +35,6 @@ void main() {
             high = max(high, highs[k]);
         }
     }
-    boxes.at[at] = vec4(low, 0.0);
-    boxes.at[at + 1u] = vec4(high, 0.0);
+    boxWords.at[at] = uvec4(floatBitsToUint(low), 0u); // no ray is aimed at it yet
+    boxWords.at[at + 1u] = uvec4(floatBitsToUint(high), 0u);
 }

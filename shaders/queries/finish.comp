@@ -23,7 +23,8 @@ void main() {
     loadCoefficients(own, c);
     turned = c;
     turnTo(ray, own.first, turned);
-    vec3 low = boxes.at[2u * (push.firstBox + listed)].xyz, high = boxes.at[2u * (push.firstBox + listed) + 1u].xyz;
+    vec3 low, high;
+    loadBox(listed, low, high);
     // Rounding may differ between kernels: so a little more is let in than the pick has, round the point that it found.
     float distance = uintBitsToFloat(found.x) * ray.unit, slack = 2.0 * toleranceFor(low, high, ray.origin);
     Met met = meet(own.kind, turned, 0.999999 * distance - slack, 1.000001 * distance + slack, distance, slack, 0.0);

@@ -21,7 +21,8 @@ void main() {
     uint first = push.firstRay + block * kRaysPerLane, end = min(first + kRaysPerLane, push.rayCount);
     if (first >= push.rayCount) return;
     uint listed = lane / push.pieceCount, number = lane - listed * push.pieceCount;
-    vec3 low = boxes.at[2u * (push.firstBox + listed)].xyz, high = boxes.at[2u * (push.firstBox + listed) + 1u].xyz;
+    vec3 low, high;
+    loadBox(listed, low, high);
     float size = length(high - low);
     if (!(size >= 0.0) || low.x > high.x) return;
     vec3 lowOfAll = low, highOfAll = high;

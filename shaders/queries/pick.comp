@@ -1,48 +1,42 @@
-// What a few rays meet first: a lane a piece of a surface and instance. There are two dispatches. The first finds the least t of
-// each ray, the second the first lane that has it; most lanes are done there when their box has been looked at.
+// What a few rays meet first: a lane a piece of a surface and instance that rays are aimed at. There are two dispatches. The first
+// finds the least t of each ray, the second the first lane that has it; most lanes are done there when their box has been looked at.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/mapping.glsl"
 #include "shaders/queries/queries.glsl"
 #include "shaders/queries/piece.glsl"
 
-void main() {
-    uint lanes = push.pieceCount * push.instanceCount, id = invocationIndex(), block = id / max(lanes, 1u), lane = id - block * lanes;
-    uint firstRay = push.firstRay + block * kRaysPerLane, endRay = min(firstRay + kRaysPerLane, push.rayCount);
-    if (firstRay >= push.rayCount) return;
-    uint listed = lane / push.pieceCount, number = lane - listed * push.pieceCount;
-    vec3 low = boxes.at[2u * (push.firstBox + listed)].xyz, high = boxes.at[2u * (push.firstBox + listed) + 1u].xyz;
-    float size = length(high - low);
-    if (!(size >= 0.0) || low.x > high.x) return;
-    vec3 lowOfAll = low, highOfAll = high;
-    grow(lowOfAll, highOfAll, push.reach);
-    // Rays that the instance may be met by, then those that the piece may.
-    uint asked = 0u;
-    for (uint r = firstRay; r < endRay; ++r) {
-        Ray ray = rayOf(r);
-        if (ray.sound && mayMeet(ray, lowOfAll, highOfAll)) asked |= 1u << (r - firstRay);
-    }
-    if (asked == 0u) return;
-    Piece own = pieceOf(number, slotOfListed(listed));
+// The rays that the piece may be met by, a bit each.
+uint raysAt(const Piece own, vec3 low, vec3 high) {
     vec3 ownLow, ownHigh;
     boxOf(own, ownLow, ownHigh);
-    for (uint r = firstRay; r < endRay; ++r) {
-        if ((asked >> (r - firstRay) & 1u) == 0u) continue;
-        Ray ray = rayOf(r);
+    uint asked = 0u;
+    for (uint r = 0u; r < push.rayCount; ++r) {
         uint least = best.at[r].x;
-        if (push.work == kFindOwner && least == kNothingMet) continue;
-        // No farther than what has been found.
-        if (least != kNothingMet) ray.to = min(ray.to, uintBitsToFloat(least) * ray.unit * 1.000001);
+        Ray ray = upTo(rayOf(r), least);
+        bool isOpen = ray.sound && (push.work == kFindLeast || least != kNothingMet);
         if (push.work == kFindOwner) ray.from = max(ray.from, uintBitsToFloat(least) * ray.unit * 0.999999);
-        if (!mayMeet(ray, ownLow, ownHigh)) continue;
-        vec3 c[kPieceCoefficients];
-        loadCoefficients(own, c);
-        turnTo(ray, own.first, c);
-        ray = rayOf(r); // the whole range, so that both dispatches find the same point
-        Met met = meet(own.kind, c, ray.from, ray.to, ray.from, toleranceFor(low, high, ray.origin), 0.0);
-        if (met.distance < 0.0) continue;
-        uint t = floatBitsToUint(met.distance / ray.unit);
+        if (isOpen && mayMeet(ray, ownLow, ownHigh, toleranceFor(low, high, ray.origin))) asked |= 1u << r;
+    }
+    return asked;
+}
+
+void main() {
+    uint id = invocationIndex(), place = id / push.pieceCount, number = id - place * push.pieceCount;
+    if (place >= boxWords.at[push.firstDispatch].w) return;
+    uint listed = boxWords.at[2u * (push.firstBox + place) + 1u].w, lane = listed * push.pieceCount + number;
+    vec3 low, high, c[kPieceCoefficients];
+    loadBox(listed, low, high);
+    Piece own = pieceOf(number, slotOfListed(listed));
+    uint asked = raysAt(own, low, high);
+    if (asked == 0u) return;
+    loadCoefficients(own, c);
+    for (; asked != 0u; asked &= asked - 1u) {
+        uint r = uint(findLSB(asked));
+        Ray ray = rayOf(r); // the whole of it, so that both dispatches find the same point
+        uint t = firstMet(ray, own, c, low, high);
+        if (t == kNothingMet) continue;
         if (push.work == kFindLeast) atomicMin(best.at[r].x, t);
-        else if (t == least) atomicMin(best.at[r].y, push.firstLane + lane);
+        else if (t == best.at[r].x) atomicMin(best.at[r].y, push.firstLane + lane);
     }
 }

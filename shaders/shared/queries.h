@@ -21,6 +21,13 @@
 // patches, with how often the cage was subdivided and, if the group's rate does not give it, the rate, or kSingleTriangles; how many
 // patches there are; where their faces begin; faces, a word a patch; for each face of the cage its
 // first piece and how many it has.
+//
+// Leaves, behind the pieces if there are trees: the pieces in the order of the leaves, four words an element.
+//
+// Boxes (uvec4 elements): two for each instance of the list, the low and the high corner of its cage as float bits. Beside the low one
+// stands 1 if a ray is aimed at the instance; beside the high ones, from the window's first on, the numbers in the list of those that
+// rays are aimed at. Then for each window dispatches, an element each, with how many instances they are for: pick; and for each turn
+// fit, refit, cast.
 #ifndef SUPPLE_SHARED_QUERIES_H
 #define SUPPLE_SHARED_QUERIES_H
 
@@ -36,9 +43,11 @@ SUPPLE_SHARED_CONST kQueryCageBinding = 2u;
 SUPPLE_SHARED_CONST kQueryCageTexelBinding = 3u;
 SUPPLE_SHARED_CONST kRayBinding = 4u;      // two vec4 a ray, as SuppleRay has them; then as many a hit, SuppleTriangleHit. Or one a place
 SUPPLE_SHARED_CONST kBestBinding = 5u;     // uvec2 a ray or place: bits of the least t, then the lane that has it
-SUPPLE_SHARED_CONST kQueryBoxBinding = 6u; // two vec4 an instance of the list: low, high corner of its cage
+SUPPLE_SHARED_CONST kQueryBoxBinding = 6u; // see above
 SUPPLE_SHARED_CONST kHitBinding = 7u;      // four uvec4 a ray, as SuppleHit has them
 SUPPLE_SHARED_CONST kTriangleBinding = 8u;
+SUPPLE_SHARED_CONST kTreeBinding = 9u; // shaders/queries/tree.glsl
+SUPPLE_SHARED_CONST kTreeTexelBinding = 10u;
 
 SUPPLE_SHARED_CONST kPieceElements = 6u;
 SUPPLE_SHARED_CONST kPieceVerticesShift = 8u;
@@ -57,6 +66,8 @@ SUPPLE_SHARED_CONST kSingleTriangles = 0xFFu; // patches that are triangles of t
 
 SUPPLE_SHARED_CONST kNothingMet = 0xFFFFFFFFu;
 SUPPLE_SHARED_CONST kRaysPerLane = 16u;
+
+SUPPLE_SHARED_CONST kTreeDispatches = 3u; // of a turn
 
 // What a dispatch of the pick kernel does, or of the one that finds nearest points.
 SUPPLE_SHARED_CONST kFindLeast = 0u; // the least t of each ray
@@ -80,6 +91,11 @@ struct QueryPush {
     uint rate;          // refine: of the group, along an edge of the cage
     uint writesMisses;  // 1: of all windows this one writes the rays that meet nothing
     float reach;        // the largest of the pieces
+    uint firstDispatch; // of the window, an element of the boxes
+    uint treeCount;     // how many instances have trees at a time
+    uint turns;         // after which all instances that rays are aimed at have had one; 0: there are no trees
+    uint turn;
+    uint firstLeaf;     // element of the pieces
 };
 
 SUPPLE_SHARED_END

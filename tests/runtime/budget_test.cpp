@@ -181,7 +181,7 @@ TEST_F(Budget, UnknownPassesAreRefused) {
     out.structSize = sizeof(out);
     EXPECT_EQ(suppleGetBudget(context->handle(), SUPPLE_PASS_MAX_ENUM, &out), SUPPLE_ERROR_ARGUMENT);
     EXPECT_EQ(context->takeCount(SUPPLE_MESSAGE_OUT_OF_RANGE), 2u);
-    for (uint32_t number = SUPPLE_PASS_UPLOAD; number <= SUPPLE_PASS_POINTS; ++number) {
+    for (uint32_t number = SUPPLE_PASS_UPLOAD; number <= SUPPLE_PASS_QUERIES; ++number) {
         const auto pass = static_cast<SupplePass>(number);
         if (pass == SUPPLE_PASS_SHORTFALL) {
             continue;

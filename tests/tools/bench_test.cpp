@@ -138,8 +138,15 @@ TEST_F(Bench, QuickRunIsWhole) {
         EXPECT_GT(row["nsAPoint"].get<double>(), 0.0);
     }
     EXPECT_NE(outcome.out.find("## Points on surfaces"), std::string::npos);
+    ASSERT_EQ(result["queries"].size(), 4u);
+    for (const Json& row : result["queries"]) {
+        EXPECT_GT(row["queriesMs"].get<double>(), 0.0) << row;
+        EXPECT_GT(row["cpuOverQueries"].get<double>(), 0.0) << row;
+    }
+    EXPECT_NE(outcome.out.find("## Queries"), std::string::npos);
 #else
     EXPECT_TRUE(result["points"].empty());
+    EXPECT_TRUE(result["queries"].empty());
 #endif
     ASSERT_EQ(result["rows"].size(), cages.size());
     for (size_t i = 0; i < cages.size(); ++i) {

@@ -12,6 +12,7 @@
 #include "tools/bench/loading.h"
 #include "tools/bench/plain_evaluation.h"
 #include "tools/bench/points.h"
+#include "tools/bench/queries.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/skinning.h"
 #include "tools/bench/targets.h"
@@ -70,6 +71,9 @@ public:
             status = points();
         }
         if (status) {
+            status = queries();
+        }
+        if (status) {
             status = scene();
         }
         if (status) {
@@ -103,6 +107,7 @@ private:
     Status views();
     Status updateRates();
     Status points();
+    Status queries();
     Status scene();
     Status skinning();
     Status classical();
@@ -315,6 +320,18 @@ Status Run::points() {
     desc.frames = 4 * (options_.quick ? 1 : options_.rounds);
     desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rpoints: %s   ", what.c_str()); };
     return keepAs("points", measurePoints(device_, *workbench_, desc));
+}
+
+Status Run::queries() {
+    if (crowdSize() == 0) {
+        return success();
+    }
+    QueriesDesc desc;
+    desc.characters = {1, options_.quick ? 2u : 100u};
+    desc.rays = options_.quick ? std::vector<uint32_t>{1, 40} : std::vector<uint32_t>{1, 16, 1000, 10'000};
+    desc.frames = 4 * (options_.quick ? 1 : options_.rounds);
+    desc.progress = [](const std::string& what) { std::fprintf(stderr, "\rqueries: %s   ", what.c_str()); };
+    return keepAs("queries", measureQueries(device_, *workbench_, desc));
 }
 
 Status Run::scene() {

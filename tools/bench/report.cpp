@@ -313,6 +313,15 @@ std::string pointTable(const Json& rows) {
     return table.empty() ? "" : "## Points on surfaces\n\n" + table.text(0);
 }
 
+std::string queryTable(const Json& rows) {
+    Table table({"rays", "characters", "queries pass, ms", "rays a second", "CPU, ms", "CPU / pass"});
+    for (const Json& row : rows) {
+        table.add({row["rays"].dump(), row["characters"].dump(), number(row["queriesMs"]), number(row["raysASecond"]),
+                   number(row["cpuMs"]), number(row["cpuOverQueries"])});
+    }
+    return table.empty() ? "" : "## Queries\n\n" + table.text(0);
+}
+
 /// Nanoseconds a vertex, and over dual quaternions.
 std::string skinningTable(const Json& rows) {
     Table table({"deform pass", "vertices", "joints", "influences", "characters", "skinning", "ns a vertex",
@@ -463,6 +472,7 @@ std::string toTables(const Json& result) {
     out += viewTable(result.value("views", Json::array()));
     out += updateRateTable(result.value("updateRates", Json::array()));
     out += pointTable(result.value("points", Json::array()));
+    out += queryTable(result.value("queries", Json::array()));
     if (result.contains("scene")) {
         out += sceneTables(result["scene"]);
     }

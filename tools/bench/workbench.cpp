@@ -155,6 +155,41 @@ Status Workbench::scatterPoints(SuppleGroup group, uint32_t count) {
     return set ? success() : Status(set.error());
 }
 
+Result<SuppleQueryPool> Workbench::createQueryPool(SuppleGroup group, uint32_t rayCount) {
+    SuppleQueryPoolDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.groups = &group;
+    desc.groupCount = 1;
+    desc.rayCount = rayCount;
+    const Result<uint64_t> pool = inside_->context->createQueryPool(desc);
+    return pool ? Result<SuppleQueryPool>(SuppleQueryPool{*pool}) : pool.error();
+}
+
+Status Workbench::recordQueries(SuppleQueryPool pool, VkCommandBuffer commands, std::span<const SuppleRay> rays) {
+    SuppleQueryDesc desc{};
+    desc.structSize = sizeof desc;
+    desc.hostRays = rays.data();
+    desc.rayCount = static_cast<uint32_t>(rays.size());
+    return inside_->context->recordQueries(commands, *inside_->context->queryPools.at(pool.id), desc);
+}
+
+Status Workbench::findRays(SuppleGroup group, std::span<const glm::vec3> cage, std::span<const float> rays) const {
+    runtime::Group& own = inside_->group(group);
+    const auto surfaces = runtime::Context::surfacesOf(own);
+    if (!surfaces) {
+        return surfaces.error();
+    }
+    SupplePointQuery query{};
+    query.structSize = sizeof query;
+    query.kind = SUPPLE_FIND_RAY;
+    query.count = static_cast<uint32_t>(rays.size() / 6);
+    query.values = rays.data();
+    query.cage = &cage[0].x;
+    query.cageVertexCount = static_cast<uint32_t>(cage.size());
+    std::vector<SuppleSurfacePoint> points(query.count);
+    return runtime::findPoints(*surfaces, own.points().finder(), query, points);
+}
+
 Result<SuppleGroup> Workbench::createGroup(SuppleGroupDesc desc, uint32_t updateInterval) {
     desc.structSize = sizeof desc;
     desc.capacity = std::max(desc.capacity, 1u);
@@ -224,7 +259,11 @@ void Workbench::lookAhead(SuppleView view) {
 }
 
 void Workbench::moveBehind(SuppleGroup group, uint32_t slot) {
-    inside_->group(group).poses().setPosition(slot, glm::dvec3(0.0, 0.0, 2.0 * kEyeDistance));
+    moveTo(group, slot, glm::dvec3(0.0, 0.0, 2.0 * kEyeDistance));
+}
+
+void Workbench::moveTo(SuppleGroup group, uint32_t slot, const glm::dvec3& position) {
+    inside_->group(group).poses().setPosition(slot, position);
 }
 
 void Workbench::destroy(SuppleAsset asset) {
@@ -237,6 +276,10 @@ void Workbench::destroy(SuppleGroup group) {
 
 void Workbench::destroy(SuppleView view) {
     inside_->context->destroyView(view.id);
+}
+
+void Workbench::destroy(SuppleQueryPool pool) {
+    inside_->context->destroyQueryPool(pool.id);
 }
 
 Status Workbench::setUploadBudget(uint64_t bytes) {

@@ -10,9 +10,12 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <supple/supple.h>
+#include <supple/supple_queries.h>
 #include <vector>
 
 namespace supple::runtime {
@@ -50,6 +53,13 @@ public:
     [[nodiscard]] Result<SuppleGroup> createGroup(SuppleGroupDesc desc, uint32_t updateInterval = 0);
     /// Scatters so many points over the group's surfaces: SUPPLE_POINT_FRAME_48. They go with the group.
     [[nodiscard]] Status scatterPoints(SuppleGroup group, uint32_t count);
+    /// For so many rays a frame at a group. It goes with destroy().
+    [[nodiscard]] Result<SuppleQueryPool> createQueryPool(SuppleGroup group, uint32_t rayCount);
+    /// Behind recordFrame of the group. Hits are not read back.
+    [[nodiscard]] Status recordQueries(SuppleQueryPool pool, VkCommandBuffer commands, std::span<const SuppleRay> rays);
+    /// What suppleFindPoints does with rays, six numbers each, and a deformed cage.
+    [[nodiscard]] Status findRays(SuppleGroup group, std::span<const glm::vec3> cage,
+                                  std::span<const float> rays) const;
     /// Of a group that plays.
     void setTime(SuppleGroup group, double seconds);
     /// Irrational steps: no two instances have a pose in common, and an instance's does not hang on how many there are.
@@ -67,10 +77,12 @@ public:
     void lookAhead(SuppleView view);
     /// A camera that looks ahead does not see the instance in the slot any more.
     void moveBehind(SuppleGroup group, uint32_t slot);
+    void moveTo(SuppleGroup group, uint32_t slot, const glm::dvec3& position);
     /// Their memory is freed in a later frame.
     void destroy(SuppleAsset asset);
     void destroy(SuppleGroup group);
     void destroy(SuppleView view);
+    void destroy(SuppleQueryPool pool);
 
     /// What suppleBeginFrame and suppleRecord do, all earlier frames being done. `flags`: SuppleRecordDesc.flags.
     [[nodiscard]] Status recordFrame(SuppleGroup group, VkCommandBuffer commands, uint32_t flags = 0);

@@ -1703,6 +1703,7 @@ typedef enum SupplePass {
     SUPPLE_PASS_MOTION = 14,
     SUPPLE_PASS_SHORTFALL = 15, /**< no pass: see SuppleTiming.pass */
     SUPPLE_PASS_POINTS = 16,    /**< supple_points.h */
+    SUPPLE_PASS_QUERIES = 17,   /**< supple_queries.h */
     SUPPLE_PASS_MAX_ENUM = 0x7FFFFFFF
 } SupplePass;
 
@@ -1719,12 +1720,13 @@ typedef struct SuppleTiming {
      * once more each, for the levels of chains that views ask for, if patches of catmull-clark or loop have chains. If
      * a group has several surfaces, passes that work on surfaces have an entry for each, and deform has one more for
      * each. An entry SHORTFALL is no pass and takes no time. It follows solve only in frames in which the view's budget
-     * was not enough (SuppleViewStatistics.shortfall). */
+     * was not enough (SuppleViewStatistics.shortfall). QUERIES: a batch of suppleRecordQueries, if suppleRecord of the
+     * frame was timed. */
     SupplePass pass;
     /** The surface of the group that the entry is about: SuppleSurfaceInfo has its parts. Parts of one surface go
      * through each pass together, so there are no times for each of them. SUPPLE_NO_SURFACE: the whole group. */
     uint32_t surface;
-    SuppleGroup group; /**< of suppleRecord */
+    SuppleGroup group; /**< of suppleRecord. QUERIES: id 0, as a batch asks several groups at once */
     uint64_t frame;
     double gpuBegin; /**< nanoseconds since the context's first timestamp; 0 if the queue has no timestamps */
     double gpuEnd;

@@ -133,6 +133,12 @@ typedef struct SuppleQueryDesc {
  *
  * Each group's surfaces become pieces: polynomials of its cage's vertices, which no pose changes. They are shared by
  * all instances and made anew by each pool; docs/surface_points.md says how long that takes and what they take.
+ *
+ * Device memory besides (SuppleMemoryUse.scratch, streams): 136 bytes a ray, and 64 bytes a ray and frame in flight
+ * that the host reads; of each group 32 bytes an instance. If rayCount is above 16, each group has a tree over its
+ * pieces too: 64 bytes a piece for each instance that is looked at at the same time. Those are all instances of its
+ * capacity, if 64 MiB are enough for them. Otherwise rays go through them in turns.
+ *
  * suppleSetCapacity and suppleReloadAsset make a group's part of the pool anew. A group that is destroyed leaves the
  * pool; the others keep their numbers.
  *
