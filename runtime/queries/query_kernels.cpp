@@ -1,5 +1,6 @@
 #include "runtime/queries/query_kernels.h"
 
+#include "gpu/memory.h"
 #include "shaders/queries_aim_comp.h"
 #include "shaders/queries_boxes_comp.h"
 #include "shaders/queries_finish_comp.h"

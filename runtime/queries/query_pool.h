@@ -109,9 +109,6 @@ private:
     void recordCast(gpu::Dispatches& dispatches, uint32_t rays) const;
     void recordRefine(gpu::Dispatches& dispatches, uint32_t rays) const;
     void recordNearest(gpu::Dispatches& dispatches, uint32_t places) const;
-    /// Calls record(group, batch) for those that are asked, with a barrier behind all.
-    template <class F>
-    void recordEach(gpu::Dispatches& dispatches, uint32_t rays, F&& record) const;
     void recordReadback(VkCommandBuffer commandBuffer, uint64_t frame, uint32_t count);
 
     const gpu::Device* owner_ = nullptr;

@@ -1,5 +1,6 @@
 #include "runtime/queries/tree_kernels.h"
 
+#include "gpu/memory.h"
 #include "shaders/queries_cast_comp.h"
 #include "shaders/queries_fit_comp.h"
 #include "shaders/queries_refit_comp.h"
