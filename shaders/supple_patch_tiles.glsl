@@ -45,7 +45,7 @@ struct SuppleTile {
     uint sector;    // of a P5 patch
     uvec2 first;    // (i, j) of its first sample in the grid
     uvec2 cells;
-    uint wholeRows; // of a triangle: so many rows of cells do not meet the diagonal's second half
+    uint wholeRows; // of a triangle: rows of cells that have all their triangles
     uint vertexCount;
     uint triangleCount;
 };

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fetches Mesa's lavapipe of Debian's backports, which has ray queries, to build/lavapipe. The next cmake finds it there, for the
-# tests RayQueries. Nothing is installed: apt takes the package from the mirror that this machine has anyway, and checks its
-# signature. To run another program on it, set VK_DRIVER_FILES=build/lavapipe/lavapipe.json.
+# Fetches Mesa's lavapipe of Debian's backports, which has ray queries and mesh shaders, to build/lavapipe. The next cmake finds it
+# there, for the tests RayQueries and MeshShaders. Nothing is installed: apt takes the package from the mirror that this machine has
+# anyway, and checks its signature. To run another program on it, set VK_DRIVER_FILES=build/lavapipe/lavapipe.json.
 # Usage: tools/lavapipe.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -22,8 +22,8 @@ npm_package SUPPLE_GLTF_VALIDATOR gltf-validator 2.0.0-dev.3.10
 npm_package SUPPLE_THREE three 0.187.0
 # Without its source package the tests of KTX2 say that they were left out.
 tools/basisu.sh || echo "Textures in KTX2 are left out: Basis Universal could not be fetched" >&2
-# Without it the tests of ray queries say that they were left out.
-tools/lavapipe.sh || echo "Ray queries are left out: lavapipe of Debian's backports could not be fetched" >&2
+# Without it the tests of ray queries and mesh shaders say that they were left out.
+tools/lavapipe.sh || echo "Ray queries and mesh shaders are left out: lavapipe of Debian's backports could not be fetched" >&2
 # Without these the test mingw builds the library alone, and windows_bakes says that it was left out.
 tools/windows_libraries.sh vulkan zlib png jpeg meshopt || echo "supple.exe is left out: its libraries could not be built" >&2
 # demo.sh may have configured without the tests.
