@@ -5,6 +5,9 @@
 #include "shaders/queries_fit_comp.h"
 #include "shaders/queries_refit_comp.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace supple::runtime {
 
 using namespace supple::shared;
