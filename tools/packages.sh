@@ -1,5 +1,6 @@
 # shellcheck shell=bash disable=SC2034
-# What Supple needs of Debian 12 (bookworm) or a relative of it. The one list; sourced by demo.sh, test.sh, windows.sh and package.sh.
+# What Supple needs of Debian 12 (bookworm) or a relative of it. The one list; sourced by demo.sh, test.sh, compilers.sh,
+# windows.sh and package.sh.
 
 # To build and run.
 supple_packages=(
@@ -26,6 +27,12 @@ supple_test_packages=(
 supple_windows_packages=(
     g++-mingw-w64-x86-64-posix dpkg-dev
     wine64 xvfb xauth
+)
+# To try other compilers and processors: tools/compilers.sh, not the tests. Debian removes gcc-multilib for these.
+supple_compiler_packages=(
+    clang libc++-dev libc++abi-dev
+    g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user
+    libfast-float-dev
 )
 # To make Debian packages: tools/package.sh, not the tests.
 supple_deb_packages=(
