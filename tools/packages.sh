@@ -20,7 +20,7 @@ supple_test_packages=(
     qml6-module-qtquick-templates qml6-module-qtqml-workerscript
     abigail-tools pkg-config spirv-cross
     doxygen python3
-    clang libc++-dev libc++abi-dev
+    clang libc++-dev libc++abi-dev libfast-float-dev
     blender python3-numpy chromium
 )
 # To build for Windows, and to run that here.
@@ -30,9 +30,8 @@ supple_windows_packages=(
 )
 # To try other compilers and processors: tools/compilers.sh, not the tests. Debian removes gcc-multilib for these.
 supple_compiler_packages=(
-    clang libc++-dev libc++abi-dev
+    clang libc++-dev libc++abi-dev libfast-float-dev
     g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user
-    libfast-float-dev
 )
 # To make Debian packages: tools/package.sh, not the tests.
 supple_deb_packages=(
