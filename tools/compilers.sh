@@ -20,7 +20,7 @@ cd "$(dirname "$0")/.."
 . tools/packages.sh
 build=build/release work=build/compilers jobs=2 words_alone=0 names=()
 all=(gcc-O0 gcc-native clang libcxx aarch64 i386 msvc-rules)
-usage() { sed -n '4,18p' tools/compilers.sh | sed 's/^# //' >&2; exit 2; }
+usage() { sed -n '4,17p' tools/compilers.sh | sed 's/^# //' >&2; exit 2; }
 while [ $# -gt 0 ]; do
     case "$1" in
         --build-dir) build=${2:?}; shift ;;
@@ -85,7 +85,7 @@ configure_one() {
         gcc-native) configure "$1" -DCMAKE_CXX_FLAGS=-march=native -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON ;;
         clang)
             local everything=ON
-            [ $words_alone = 0 ] || everything=OFF
+            [ "$words_alone" = 0 ] || everything=OFF
             configure "$1" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DSUPPLE_BUILD_TOOLS=$everything
             ;;
         libcxx)
