@@ -1,5 +1,6 @@
 # shellcheck shell=bash disable=SC2034
-# What Supple needs of Debian 12 (bookworm) or a relative of it. The one list; sourced by demo.sh, test.sh, windows.sh and package.sh.
+# What Supple needs of Debian 12 (bookworm) or a relative of it. The one list; sourced by demo.sh, test.sh, compilers.sh,
+# windows.sh and package.sh.
 
 # To build and run.
 supple_packages=(
@@ -19,13 +20,18 @@ supple_test_packages=(
     qml6-module-qtquick-templates qml6-module-qtqml-workerscript
     abigail-tools pkg-config spirv-cross
     doxygen python3
-    clang libc++-dev libc++abi-dev
+    clang libc++-dev libc++abi-dev libfast-float-dev
     blender python3-numpy chromium fonts-dejavu-core
 )
 # To build for Windows, and to run that here.
 supple_windows_packages=(
     g++-mingw-w64-x86-64-posix dpkg-dev
     wine64 xvfb xauth
+)
+# To try other compilers and processors: tools/compilers.sh, not the tests. Debian removes gcc-multilib for these.
+supple_compiler_packages=(
+    clang libc++-dev libc++abi-dev libfast-float-dev
+    g++-aarch64-linux-gnu g++-i686-linux-gnu qemu-user
 )
 # To make Debian packages: tools/package.sh, not the tests.
 supple_deb_packages=(

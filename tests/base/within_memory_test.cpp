@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <stdexcept>
+#include <vector>
 
 namespace supple {
 namespace {
@@ -24,6 +25,18 @@ TEST(WithinMemory, GivesTheErrorOfWhatIsBuilt) {
 
 TEST(WithinMemory, TurnsRunningOutIntoAnError) {
     const Result<int> built = withinMemory("tables", []() -> Result<int> { throw std::bad_alloc(); });
+    ASSERT_FALSE(built.ok());
+    EXPECT_EQ(built.error().code, ErrorCode::hostMemory);
+    EXPECT_EQ(built.error().message, "out of memory for tables");
+}
+
+/// With 32 bits a file's count comes to more than a vector may hold.
+TEST(WithinMemory, TurnsAVectorThatIsTooLongIntoAnError) {
+    const Result<int> built = withinMemory("tables", []() -> Result<int> {
+        std::vector<char> bytes;
+        bytes.resize(bytes.max_size() + size_t{1});
+        return 3;
+    });
     ASSERT_FALSE(built.ok());
     EXPECT_EQ(built.error().code, ErrorCode::hostMemory);
     EXPECT_EQ(built.error().message, "out of memory for tables");

@@ -1,0 +1,27 @@
+# For another processor, from Debian: SUPPLE_PROCESSOR is aarch64 or i386. Libraries of that processor lie in
+# SUPPLE_FOREIGN_LIBRARIES, unpacked by tools/compilers.sh, which uses this file. Nothing of /usr is taken but the compiler and its
+# own libraries.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR ${SUPPLE_PROCESSOR})
+if(SUPPLE_PROCESSOR STREQUAL "aarch64")
+    set(_triplet aarch64-linux-gnu)
+    set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+    set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64 -L ${SUPPLE_FOREIGN_LIBRARIES})
+else()
+    # Floats are rounded to their own size with SSE alone: the x87 has one size for all.
+    set(_triplet i686-linux-gnu)
+    set(CMAKE_LIBRARY_ARCHITECTURE i386-linux-gnu)
+    set(CMAKE_C_FLAGS_INIT "-march=x86-64 -mfpmath=sse")
+    set(CMAKE_CXX_FLAGS_INIT "-march=x86-64 -mfpmath=sse")
+    set(CMAKE_CROSSCOMPILING_EMULATOR qemu-i386 -L ${SUPPLE_FOREIGN_LIBRARIES})
+endif()
+set(CMAKE_C_COMPILER ${_triplet}-gcc)
+set(CMAKE_CXX_COMPILER ${_triplet}-g++)
+set(_libraries ${SUPPLE_FOREIGN_LIBRARIES}/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE})
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,-rpath-link,${_libraries}")
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES SUPPLE_PROCESSOR SUPPLE_FOREIGN_LIBRARIES)
+set(CMAKE_FIND_ROOT_PATH ${SUPPLE_FOREIGN_LIBRARIES})
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
