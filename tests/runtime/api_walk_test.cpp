@@ -2706,11 +2706,8 @@ void points(Rows& r) {
     r.description<Desc>(kCreate, "desc", desc, create);
     spoiled("outside of the face", kRange, [](World&, Desc& d) { d.points = kOutside; });
     spoiled("no such face", kRange, [](World&, Desc& d) { d.points = kNoFace; });
-    r.accept(kCreate, "on vertices", [=](World& w) {
-        Desc given = desc(w);
-        given.flags = SUPPLE_POINT_SET_ON_VERTICES;
-        return create(w, &given);
-    });
+    spoiled("on vertices, of a group that has none", SUPPLE_MESSAGE_CONFLICT,
+            [](World&, Desc& d) { d.flags = SUPPLE_POINT_SET_ON_VERTICES; });
 #endif
     r.nullContext(kDestroy, [](World&, SuppleContext c) { return suppleDestroyPointSet(c, {}); });
     r.nullContext(kOutput, [](World& w, SuppleContext c) {
