@@ -51,8 +51,8 @@ struct Construction {
     Section section;
     uint32_t coefficients = 0; ///< how many it writes per instance, for the cost report
     bool readsPool = false;    ///< those before it in its stage write what it reads
-    uint32_t from = 0;         ///< by stencils: the first vertex that rows may name
-    uint32_t to = 0;           ///< by stencils: pool index of the first row's point
+    uint32_t from = 0; ///< by stencils: the first vertex that rows may name; of regular fans: how many come before
+    uint32_t to = 0;   ///< by stencils: pool index of the first row's point
 };
 /// Whether it runs rows of stencils (surface/stencil_table.h). Its section then counts the lanes of whole blocks, of
 /// which some have no row.

@@ -109,13 +109,19 @@ bool isByStencils(const Construction& construction) {
 void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWriter& writer, Tables& tables) {
     constexpr uint32_t kHalves = 0x10000;
     const uint32_t rows = stencils.rows();
+    if (rows == 0) {
+        return;
+    }
     WeightLists lists;
     std::vector<uint32_t> weights(rows);
     for (uint32_t row = 0; row < rows; ++row) {
         weights[row] = lists.of(stencils, row);
     }
     const auto elements = static_cast<uint32_t>(lists.words().size() / 4);
-    const bool halves = rows <= kHalves && elements < kHalves &&
+    const auto numberOf = [&](uint32_t row) { return place.numbers.empty() ? row : place.numbers[row]; };
+    const uint32_t last =
+        place.numbers.empty() ? rows - 1 : *std::max_element(place.numbers.begin(), place.numbers.end());
+    const bool halves = last < kHalves && elements < kHalves &&
                         std::all_of(stencils.vertices.begin(), stencils.vertices.end(),
                                     [](uint32_t vertex) { return vertex < kHalves; });
     const std::vector<uint32_t> order = rowsByLength(stencils);
@@ -140,7 +146,7 @@ void writeStencils(const Stencils& stencils, const StencilPlace& place, TableWri
     NumberWriter numbers(halves, writer);
     std::vector<uint32_t> list;
     for (const uint32_t row : order) {
-        list.assign({row, elements - weights[row]});
+        list.assign({numberOf(row), elements - weights[row]});
         list.insert(list.end(), stencils.vertices.begin() + stencils.starts[row],
                     stencils.vertices.begin() + stencils.starts[row + 1]);
         if (list.size() % 2 != 0) { // a weight of 0 on the row's own first vertex

@@ -21,7 +21,7 @@ static_assert(sizeof(skinning::MushInfluence) == 44);
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'S', 'U', 'P', 'P', 'L', 'E', '\r', '\n'};
-constexpr uint32_t kVersion = 14;
+constexpr uint32_t kVersion = 15;
 constexpr uint32_t kByteOrder = 0x01020304;
 
 struct Header {

@@ -61,10 +61,25 @@ vec3 point(uint i) {
 }
 #include "shaders/subdivision/rules.glsl"
 
+// Sums over offsets of spoke and face points of ring 1 from the centre.
+struct RingSums {
+    vec3 spokes, faces;
+};
+void addToSums(inout RingSums sums, vec3 p, uint i) {
+    if (kLoop || (i & 1u) != 0u) {
+        precise vec3 spokes = sums.spokes + p;
+        sums.spokes = spokes;
+    } else {
+        precise vec3 faces = sums.faces + p;
+        sums.faces = faces;
+    }
+}
+
 // Weights act on the differences to the centre. The position is the same in all runs. Lanes have loops of different lengths, so
 // these are tested at the top: in one that is tested at the bottom lavapipe 22.3 goes on adding for lanes that have finished.
-void storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
+RingSums storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
     uvec4 head = tableElement(arrangement);
+    RingSums sums = RingSums(vec3(0.0), vec3(0.0));
     uint runs = head.x, ring = head.w, at = arrangement + 1u;
     for (uint run = 0u; run < runs; ++run) {
         uint blocks = tableElement(at++).x;
@@ -73,6 +88,7 @@ void storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
             precise vec3 a = vec3(0.0), b = vec3(0.0), d = vec3(0.0), e = vec3(0.0);
             for (uint i = 1u; i <= ring; ++i) {
                 vec3 p = point(i);
+                if (run == 0u && block == 0u) addToSums(sums, p, i);
                 vec4 w = uintBitsToFloat(tableElement(at++));
                 a = a + w.x * p;
                 b = b + w.y * p;
@@ -90,6 +106,16 @@ void storeLimits(uint arrangement, uint limitIndex, uint normalIndex) {
         }
         pool.at[normalIndex + run] = vec4(normal, 0.0);
     }
+    return sums;
+}
+
+// The centre of level 2 of a chain that is made level by level. It is made of the points that the limit is made of.
+void storeCentre(uint fanElement, uint arrangement, RingSums sums, uint to) {
+    uvec4 step = tableElement(tableElement(arrangement).z);
+    vec2 weights = uintBitsToFloat(tableElement(fanElement + 1u).xy);
+    vec3 first = point(1u + kPointsOfSpoke * step.z), second = point(1u + kPointsOfSpoke * step.w);
+    vec3 p = nextCentre(vec3(0.0), sums.spokes, sums.faces, weights, uintBitsToFloat(step.x), uintBitsToFloat(step.y), first, second);
+    pool.at[to] = vec4(p, 0.0);
 }
 
 uvec4 fan; // sectors, points of a level, whether it is open
@@ -190,7 +216,7 @@ void putSpokePoints(uint target, uint h, SpokePoints p) {
 }
 #endif
 
-// A spoke or the centre of a chain.
+// A spoke or the centre of a chain. Level 2 has spokes alone here, unless it is made with the others in workgroup memory.
 struct ChainItem {
     uint spoke; // the number of spokes: the centre
     uint steps, sharpness; // of its arrangement
@@ -199,7 +225,7 @@ ChainItem chainItem(uint record, uint spoke) {
     uvec4 arrangement = tableElement(tableElement(record).z);
     return ChainItem(spoke, arrangement.z, arrangement.y);
 }
-bool isCentre(ChainItem item) { return item.spoke == fan.x + fan.z; }
+bool isCentre(ChainItem item) { return kMakes != kMakesFirstLevel && item.spoke == fan.x + fan.z; }
 SpokePoints pointsOf(ChainItem item, uint firstWeights, uint level) {
     if (isCentre(item)) {
         vec2 weights = uintBitsToFloat(tableElement(firstWeights).xy);
@@ -257,7 +283,8 @@ void makeChains(uvec4 block, uint lane) {
 // One of them. Idle lanes repeat the last item.
 void makeLevel(uvec4 block, uint lane) {
     uint vertices = block.z & ((1u << kChainLevelShift) - 1u), level = block.z >> kChainLevelShift;
-    uint n = min(block.w + lane, vertices * (fan.x + fan.z + 1u) - 1u), spoke = n / vertices;
+    uint items = fan.x + fan.z + (kMakes == kMakesFirstLevel ? 0u : 1u);
+    uint n = min(block.w + lane, vertices * items - 1u), spoke = n / vertices;
     uint record = block.y + 2u * (n - spoke * vertices), target = base + tableElement(record + 1u).x + (level - 2u) * fan.y;
     if (kMakes == kMakesFirstLevel) readNet(record);
     else source = target - fan.y;
@@ -272,7 +299,8 @@ void main() {
         uint record = push.table + 2u * lane;
         uvec4 a = tableElement(record), b = tableElement(record + 1u);
         readNet(record);
-        storeLimits(a.z, base + a.w, base + b.y);
+        RingSums sums = storeLimits(a.z, base + a.w, base + b.y);
+        if (b.w != 0u) storeCentre(a.y, a.z, sums, base + b.w);
         if (b.x != 0u) pool.at[base + b.x - 1u] = vec4(centre, 0.0);
         return;
     }

@@ -10,13 +10,17 @@
 // level 1, then for every level from 2 on all points up to radius 3 round the vertex, as offsets from that.
 //
 // Tables
-//   ring              see shared/surface.h; closed fans come first and have nothing else
+//   ring              see shared/surface.h; closed fans come first, and of them those with points
+//   fans with points  two words, one behind the other: pool index of the first point of level 1 that the fan makes; which it makes, a
+//                     bit each: that of its vertex, from kFanEdges on those of its edges, from kFanFaces on those of its faces. The
+//                     points follow each other in this order. Other closed fans have nothing but the ring
 //   plain runs        of all others three words, one behind the other: first slot, weights (surface::writeFanWeights), limit point
 //   vertices          not plain: two elements: (first word of the net; fan; arrangement; pool index of the limit point), (pool
-//                     index of the chain's level 2 or 0, pool index of the first normal, that which the net counts from, 0)
+//                     index of the chain's level 2 or 0, pool index of the first normal, that which the net counts from, pool index
+//                     of the centre of level 2 if the chain is made level by level, else 0)
 //   blocks            of kBlockLanes lanes: whole chains of one fan, a lane a spoke or a centre: (fan; first vertex; vertices;
-//                     last level). Or one level of chains: (fan; first vertex; vertices, and from kChainLevelShift on the level;
-//                     first item). The vertex rises first, then the spoke; the centre comes last
+//                     last level). Or one level of chains, the first without centres: (fan; first vertex; vertices, and from
+//                     kChainLevelShift on the level; first item). The vertex rises first, then the spoke; the centre comes last
 //   net               points up to radius 2, in spiral order, 16 bits each
 //   fans              by sectors and openness: (sectors, points of a level of a chain, 1 if it is open, 0), (weight of a spoke point,
 //                     of a face point in the centre's step; 0, 0); net lists: kNetListElements a sector, the net of 5 x 5 points of a
@@ -51,6 +55,13 @@ SUPPLE_SHARED_CONST kNetPoints = 25u;
 SUPPLE_SHARED_CONST kNetMiddle = 12u;
 
 SUPPLE_SHARED_CONST kChainLevelShift = 24u;
+
+// A kind of fan (shared/surface.h): regular, and makes points of level 1. It comes before other regular ones, whose dispatch
+// says in ConstructPush::from how many there are.
+SUPPLE_SHARED_CONST kPointsFan = 5u;
+SUPPLE_SHARED_CONST kFanEdges = 1u;
+SUPPLE_SHARED_CONST kFanFaces = 5u;
+SUPPLE_SHARED_CONST kFanPoints = 9u;
 
 // Kinds of the chain kernel: what it makes.
 SUPPLE_SHARED_CONST kMakesLimits = 0u;

@@ -129,7 +129,8 @@ SUPPLE_SHARED_CONST kMaxSpokes = 1u << kSpokeBits;
 SUPPLE_SHARED_CONST kMaxSpokeStep = 511u; // up or down
 SUPPLE_SHARED_CONST kPointBits = SUPPLE_POINT_BITS; // limit points in records
 
-// Kinds of fans: specialization of the vertex stage. Creased and variable ones are P_m's alone.
+// Kinds of fans: specialization of the vertex stage. Creased and variable ones are P_m's alone. Catmull-Clark has one more
+// (shared/chains.h).
 SUPPLE_SHARED_CONST kRegularFan = 0u; // closed, four facets, no crease
 SUPPLE_SHARED_CONST kFewFan = 1u;     // up to kFewSpokes spokes
 SUPPLE_SHARED_CONST kManyFan = 2u;
@@ -215,7 +216,7 @@ struct ConstructPush {
     WindowPush window;
     uint table; // first element of the records
     uint count;
-    uint from; // by stencils: the first vertex that rows may name
+    uint from; // by stencils: the first vertex that rows may name; regular fans of Catmull-Clark: how many come before
     uint to;   // by stencils: pool index of the first row's point
 };
 // The pass `patch`.

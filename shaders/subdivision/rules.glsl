@@ -67,7 +67,20 @@ vec3[8] pointsOf(Sources n) {
     return p;
 }
 
-// The centre, by the weights of its spoke and face points and its step (smooth, crease, first and second spoke).
+// The centre of the next level. The sums are over offsets from `c`, that of this level; `first` and `second`: the points on the
+// two spokes of a crease.
+vec3 nextCentre(vec3 c, vec3 spokeSum, vec3 faceSum, vec2 weights, float smoothShare, float creaseShare, vec3 first, vec3 second) {
+    precise vec3 offset = vec3(0.0);
+    if (smoothShare > 0.0) offset = smoothShare * (weights.x * spokeSum + weights.y * faceSum);
+    if (creaseShare > 0.0) {
+        precise vec3 ends = (first - c) + (second - c);
+        offset = offset + creaseShare * (0.125 * ends);
+    }
+    precise vec3 p = c + offset;
+    return p;
+}
+
+// The same, by the weights of its spoke and face points and its step (smooth, crease, first and second spoke).
 vec3 centrePoint(uint spokes, vec2 weights, float smoothShare, float creaseShare, uint first, uint second) {
     const uint stride = kLoop ? 1u : 2u;
     vec3 c = point(0u);
@@ -80,15 +93,12 @@ vec3 centrePoint(uint spokes, vec2 weights, float smoothShare, float creaseShare
             faceSum = faceSum + face;
         }
     }
-    precise vec3 p = c;
-    precise vec3 offset = vec3(0.0);
-    if (smoothShare > 0.0) offset = smoothShare * (weights.x * spokeSum + weights.y * faceSum);
+    vec3 a = vec3(0.0), b = vec3(0.0);
     if (creaseShare > 0.0) {
-        precise vec3 ends = (point(1u + stride * first) - c) + (point(1u + stride * second) - c);
-        offset = offset + creaseShare * (0.125 * ends);
+        a = point(1u + stride * first);
+        b = point(1u + stride * second);
     }
-    p = c + offset;
-    return p;
+    return nextCentre(c, spokeSum, faceSum, weights, smoothShare, creaseShare, a, b);
 }
 
 vec3 crossProduct(vec3 a, vec3 b) {

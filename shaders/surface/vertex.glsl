@@ -45,8 +45,7 @@ Fan fanOfRegular(vec3 e[4], vec3 d[4]) {
     precise vec3 e2 = (4.0 * (e[1] - e[3]) + ((d[0] - d[2]) + (d[1] - d[3]))) * (1.0 / 36.0);
     return Fan(x, e1, e2);
 }
-void regularFan(uint index, uint base, uint cageBase) {
-    RegularFacets f = regularFacets(index, cageBase);
+void storeRegular(RegularFacets f, uint index, uint base) {
     Fan fan = fanOfRegular(f.e, f.d);
     uint slot = 4u * index, tangent = base + header.tangents + slot, face = base + header.faces + slot;
     storeLimit(base + f.vertex, f.p0, fan.x);
@@ -56,6 +55,7 @@ void regularFan(uint index, uint base, uint cageBase) {
     storePool(tangent + 3u, -fan.e2);
     for (uint k = 0u; k < 4u; ++k) storeOffset(face + k, faceCoefficient(f.e[k], f.e[(k + 1u) & 3u], f.d[k]), fan.x);
 }
+void regularFan(uint index, uint base, uint cageBase) { storeRegular(regularFacets(index, cageBase), index, base); }
 
 void addSpoke(inout Fan fan, uint word, uint cageBase, vec3 p0, uint weights) {
     precise vec3 spoke = ringSpoke(word, cageBase) - p0;

@@ -4,6 +4,7 @@
 #include "surface/build.h"
 #include "surface/chains/chain_tables.h"
 #include "surface/chains/corners.h"
+#include "surface/chains/fan_points.h"
 #include "surface/chains/kernels.h"
 #include "surface/chains/needed_rows.h"
 #include "surface/chains/net_lists.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <optional>
 
 namespace supple::surface::catmull_clark {
 namespace {
@@ -37,6 +39,9 @@ FanWeights openWeights(uint32_t facets) {
     }
     return w;
 }
+
+/// How often points of level 1 are numbered anew, because some must be there several times, before no fan makes any.
+constexpr uint32_t kMostRounds = 3;
 
 class Builder {
 public:
@@ -138,18 +143,62 @@ private:
             const uint32_t facet = patches_[p].facet;
             if (patches_[p].info.patchClass != PatchClass::regular) {
                 netOfPatch_[p] = static_cast<uint32_t>(nets_.size());
-                levelOne_.needNet(nets_.emplace_back(corners_.netOf(facet, firstCorners_[facet], points_)));
+                nets_.push_back(corners_.netOf(facet, firstCorners_[facet], points_));
             }
         }
-        chains_.findNets(levelOne_);
+        const std::vector<QuadNet> nets = nets_;
+        std::vector<uint8_t> isByFan(mesh_.stencils.back().rows(), 0);
+        for (const QuadNet& net : nets) {
+            markAll(net, isByFan, 1);
+        }
+        markAll(chains_.findNets(), isByFan, 1);
+        numberLevelOnePoints(isByFan);
+        // All points that are there several times must have the same bits, so rows of weights make them.
+        for (uint32_t round = 0; isAnyMarked(levelOne_.repeated(), isByFan); ++round) {
+            markAll(levelOne_.repeated(), isByFan, 0);
+            if (round == kMostRounds) {
+                isByFan.assign(isByFan.size(), 0);
+            }
+            nets_ = nets;
+            (void)chains_.findNets();
+            numberLevelOnePoints(isByFan);
+        }
     }
-    /// Runs: closed ones first. Slots lie in this order.
+    void numberLevelOnePoints(std::span<const uint8_t> isByFan) {
+        fanPoints_.emplace(parent_, corners_, isByFan);
+        levelOne_ = NeededRows(static_cast<uint32_t>(isByFan.size()));
+        levelOne_.group(fanPoints_->groups());
+        for (QuadNet& net : nets_) {
+            levelOne_.needNet(net);
+        }
+        chains_.numberNets(levelOne_);
+    }
+    static void markAll(std::span<const uint32_t> rows, std::vector<uint8_t>& marks, uint8_t mark) {
+        for (const uint32_t row : rows) {
+            marks[row] = mark;
+        }
+    }
+    static bool isAnyMarked(std::span<const uint32_t> rows, std::span<const uint8_t> marks) {
+        return std::any_of(rows.begin(), rows.end(), [&](uint32_t row) { return marks[row] != 0; });
+    }
+
+    /// The kernel for a run.
+    [[nodiscard]] uint32_t fanKind(uint32_t run) const {
+        if (!corners_.runs()[run].closed) {
+            return shared::kFewFan;
+        }
+        return fanPoints_->groupOfRun(run) == cage::kNone ? shared::kRegularFan : shared::kPointsFan;
+    }
+    /// Runs: closed ones first, and of them those that make points of level 1. Slots lie in this order.
     void layOutPool() {
         const std::vector<FanRun>& runs = corners_.runs();
         order_.resize(runs.size());
         std::iota(order_.begin(), order_.end(), 0u);
         std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
-            return std::tuple(!runs[a].closed, runs[a].faces) < std::tuple(!runs[b].closed, runs[b].faces);
+            const auto place = [&](uint32_t run) {
+                return std::tuple(!runs[run].closed, fanKind(run) == shared::kRegularFan, runs[run].faces);
+            };
+            return place(a) < place(b);
         });
         slots_.assign(topology_.spokeVertices.size(), {cage::kNone, cage::kNone});
         uint32_t slot = 0, point = cage_.vertexCount();
@@ -186,25 +235,43 @@ private:
         for (uint32_t faces = 1; faces <= 2; ++faces) {
             weights[faces] = writeFanWeights(openWeights(faces), 0, writer_);
         }
-        for (const bool closed : {true, false}) {
-            Construction vertices{meshStage(), plainVertexKernel(closed, steps()), {writer_.element(), 0}, 0};
+        uint32_t withPoints = 0;
+        for (const uint32_t kind : {shared::kPointsFan, shared::kRegularFan, shared::kFewFan}) {
+            Construction vertices{meshStage(), plainVertexKernel(kind, steps()), {writer_.element(), 0}, 0};
+            vertices.from = kind == shared::kRegularFan ? withPoints : 0;
             for (const uint32_t r : order_) {
-                const FanRun& run = corners_.runs()[r];
-                if (run.closed != closed) {
+                if (fanKind(r) != kind) {
                     continue;
                 }
+                const FanRun& run = corners_.runs()[r];
                 ++vertices.section.count;
                 vertices.coefficients += 1 + run.spokes() + run.faces;
-                if (!closed) {
+                if (kind == shared::kFewFan) {
                     writer_.put({runSlots_[r], weights[run.faces], runPoints_[r]});
+                } else if (kind == shared::kPointsFan) {
+                    const uint32_t group = fanPoints_->groupOfRun(r), points = fanPoints_->bitsOf(group);
+                    writer_.put({firstLevelOne_ + levelOne_.firstOfGroup(group), points});
+                    vertices.coefficients += static_cast<uint32_t>(std::popcount(points));
+                    ++withPoints;
                 }
             }
             if (vertices.section.count > 0) {
                 tables_.constructions.push_back(vertices);
             }
         }
-        writeStencils(rowsOf(mesh_.stencils.back(), levelOne_.rows()),
-                      {meshStage(), steps(), steps() ? tables_.meshVertices : 0, firstLevelOne_}, writer_, tables_);
+        writeOtherPoints();
+    }
+
+    /// Points of level 1 that no fan makes.
+    void writeOtherPoints() {
+        const std::vector<uint32_t>& numbers = levelOne_.alone();
+        std::vector<uint32_t> rows;
+        for (const uint32_t number : numbers) {
+            rows.push_back(levelOne_.rows()[number]);
+        }
+        writeStencils(rowsOf(mesh_.stencils.back(), rows),
+                      {meshStage(), steps(), steps() ? tables_.meshVertices : 0, firstLevelOne_, numbers}, writer_,
+                      tables_);
     }
 
     [[nodiscard]] ChainTables::Corner cornerOf(uint32_t c) {
@@ -325,6 +392,7 @@ private:
     std::vector<DraftPatch> patches_;
     std::vector<QuadNet> nets_;        ///< of irregular quads: numbers of points of level 1
     std::vector<uint32_t> netOfPatch_; ///< kNone where it is regular
+    std::optional<FanPoints> fanPoints_;
     NeededRows levelOne_;
     uint32_t firstLevelOne_ = 0;
     std::vector<uint32_t> order_;                ///< runs as slots have them

@@ -62,6 +62,7 @@ bool ChainCheck::takeVertex(uint64_t element) {
     const uint64_t runs = check_.element(first[2])[0], levels = lastLevel_ - kFirstChainLevel + 1;
     // The point that a chain is relative to lies before it.
     return checkTarget(check_, first[3]) && checkTarget(check_, second[1], runs) &&
+           check_.require(second[3] == 0 || second[3] == chain, "a centre that is not its chain's") &&
            (chain == 0 || checkTarget(check_, chain - 1, 1 + levels * fan.points));
 }
 
@@ -186,7 +187,7 @@ bool ChainCheck::checkLevel(std::span<const uint32_t> block, const CheckedFan& f
     const uint32_t level = block[2] >> shared::kChainLevelShift;
     const bool isKnown =
         makes == shared::kMakesFirstLevel ? level == kFirstChainLevel : level > kFirstChainLevel && level <= lastLevel_;
-    const uint64_t items = count * (fan.spokes() + 1);
+    const uint64_t items = count * (fan.spokes() + (makes == shared::kMakesFirstLevel ? 0 : 1));
     return check_.require(isKnown, "a level that chains do not have") &&
            check_.within(items, 0, 0xFFFFFFFFu, "items of a level") &&
            check_.within(block[3], 1, items, "items of a level");

@@ -66,11 +66,19 @@ uint32_t ChainTables::netSize(uint32_t vertex) const {
     }
 }
 
-void ChainTables::findNets(NeededRows& levelOne) {
+std::span<const uint32_t> ChainTables::findNets() {
+    nets_.clear();
+    netStarts_.clear();
     for (uint32_t v = 0; v < contents_.size(); ++v) {
         const auto net = mesh_.net.begin() + mesh_.fragments[v].firstNet;
         netStarts_.push_back(static_cast<uint32_t>(nets_.size()));
         nets_.insert(nets_.end(), net, net + netSize(v));
+    }
+    return nets_;
+}
+
+void ChainTables::numberNets(NeededRows& levelOne) {
+    for (uint32_t v = 0; v < contents_.size(); ++v) {
         levelOne.needNet(netOf(v));
     }
 }
@@ -194,8 +202,8 @@ void ChainTables::write(const Places& places, Tables& tables) {
         const ArrangementTable& arrangement = *vertexArrangements_[v];
         const uint32_t levels = chainLevels(v);
         writer_.put({nets[i], fans_.of(fanOf(v)).element, arrangement.element, places.limit(v), chains_[v], normals_[v],
-                     firstOfNets[i], 0u});
-        limits += 1 + arrangement.runs + (levels > 0 ? 1 : 0);
+                     firstOfNets[i], isByLevels(v) ? chains_[v] : 0u});
+        limits += 1 + arrangement.runs + (levels > 0 ? 1 : 0) + (isByLevels(v) ? 1 : 0);
     }
     if (vertices.empty()) {
         return;
@@ -222,6 +230,11 @@ void ChainTables::write(const Places& places, Tables& tables) {
 /// workgroup cost more than dispatches.
 bool ChainTables::fitsInBlock(uint32_t v) const {
     return wide_ && chainPoints(v) <= shared::kBlockPoints && mesh_.fragments[v].spokes() < shared::kBlockLanes;
+}
+
+/// Whether each level of the vertex's chain is made by itself. The kernel of limits makes the centre of the first one.
+bool ChainTables::isByLevels(uint32_t v) const {
+    return chainLevels(v) > 0 && !fitsInBlock(v);
 }
 
 /// Blocks of kBlockLanes lanes: whole chains of one fan each. Vertices follow each other by fans.
@@ -270,11 +283,12 @@ uint32_t ChainTables::writeLevel(const std::vector<uint32_t>& vertices, uint32_t
                chainLevels(vertices[end]) == chainLevels(vertices[i])) {
             ++end;
         }
-        if (chainLevels(vertices[i]) > 0 && !fitsInBlock(vertices[i])) {
+        if (isByLevels(vertices[i])) {
             const auto count = static_cast<uint32_t>(end - i);
+            const uint32_t centres = isFirst ? 0 : 1;
             add(fans_.of(fanOf(vertices[i])).element, firstRecord + 2 * static_cast<uint32_t>(i), count,
-                count * (mesh_.fragments[vertices[i]].spokes() + 1));
-            work.coefficients += count * chainPoints(vertices[i]);
+                count * (mesh_.fragments[vertices[i]].spokes() + centres));
+            work.coefficients += count * (chainPoints(vertices[i]) - 1 + centres);
         }
         i = end;
     }

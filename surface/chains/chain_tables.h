@@ -35,8 +35,10 @@ public:
 
     /// Refuses a vertex with more faces than 16 bits number the points of its chain.
     [[nodiscard]] Status checkSizes() const;
-    /// Numbers the points that chains and limits are made of.
-    void findNets(NeededRows& levelOne);
+    /// The points of level 1 that chains and limits are made of, as the mesh numbers them.
+    [[nodiscard]] std::span<const uint32_t> findNets();
+    /// Numbers them. Behind findNets().
+    void numberNets(NeededRows& levelOne);
     /// Takes pool indices from `next` on, and returns the first that is free.
     [[nodiscard]] uint32_t layOut(uint32_t next);
 
@@ -73,6 +75,7 @@ private:
     [[nodiscard]] uint32_t chainLevels(uint32_t v) const;
     [[nodiscard]] KindOfKernel kernelOf(uint32_t makes, Stage stage = Stage::assemble) const;
     [[nodiscard]] bool fitsInBlock(uint32_t v) const;
+    [[nodiscard]] bool isByLevels(uint32_t v) const;
     const ArrangementTable& arrangementOf(uint32_t v);
     ArrangementTable writeArrangement(const Arrangement& key);
     void writeRun(const subdivision::CentreMask& position, const LimitRun& run);

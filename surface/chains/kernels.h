@@ -7,15 +7,10 @@
 
 namespace supple::surface::chains {
 
-/// The kernel for plain vertices of a mesh: closed ones, or those on creases. `inPool`: the mesh is not the cage.
-[[nodiscard]] constexpr KindOfKernel plainVertexKernel(bool closed, bool inPool) {
-    constexpr KindOfKernel kKernels[] = {
-        {Kernel::chainsVertex, shared::kRegularFan},
-        {Kernel::chainsVertex, shared::kFewFan},
-        {Kernel::chainsVertexMeshInPool, shared::kRegularFan},
-        {Kernel::chainsVertexMeshInPool, shared::kFewFan},
-    };
-    return kKernels[(closed ? 0 : 1) + (inPool ? 2 : 0)];
+/// The kernel for plain vertices of a mesh. `kind`: shared::kPointsFan and kRegularFan of closed ones, kFewFan of those
+/// on creases. `inPool`: the mesh is not the cage.
+[[nodiscard]] constexpr KindOfKernel plainVertexKernel(uint32_t kind, bool inPool) {
+    return {inPool ? Kernel::chainsVertexMeshInPool : Kernel::chainsVertex, kind};
 }
 
 /// The variant of the chain kernel that makes limits, chains, or a level of chains.

@@ -13,9 +13,28 @@ void NeededRows::add(uint32_t row) {
     rows_.push_back(row);
 }
 
+void NeededRows::addAlone(uint32_t row) {
+    alone_.push_back(count());
+    add(row);
+}
+
+void NeededRows::group(const RowGroups& groups) {
+    groups_ = &groups;
+    groupFirsts_.assign(groups.starts.size() - 1, kNone);
+}
+
 void NeededRows::need(uint32_t row) {
-    if (numbers_[row] == kNone) {
-        add(row);
+    if (numbers_[row] != kNone) {
+        return;
+    }
+    const uint32_t group = groups_ == nullptr ? kNone : groups_->groupOf[row];
+    if (group == kNone) {
+        addAlone(row);
+        return;
+    }
+    groupFirsts_[group] = count();
+    for (uint32_t i = groups_->starts[group]; i < groups_->starts[group + 1]; ++i) {
+        add(groups_->rows[i]);
     }
 }
 
@@ -53,11 +72,19 @@ void NeededRows::numberAgain(std::span<uint32_t> net) {
     for (uint32_t& row : net) {
         if (numbers_[row] < kept) {
             const uint32_t first = firstOf(numbers_[row]);
-            add(row);
+            addAlone(row);
             firsts_.emplace(numbers_[row], first);
         }
         row = numbers_[row];
     }
+}
+
+std::vector<uint32_t> NeededRows::repeated() const {
+    std::vector<uint32_t> rows;
+    for (const auto& [number, first] : firsts_) {
+        rows.push_back(rows_[number]);
+    }
+    return rows;
 }
 
 std::vector<uint32_t> patchesByNeighbours(const std::vector<DraftPatch>& patches, const cage::Cage& cage,

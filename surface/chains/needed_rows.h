@@ -11,6 +11,12 @@
 
 namespace supple::surface::chains {
 
+/// Rows of which a kernel makes several at once, side by side: each stands in one group at most.
+struct RowGroups {
+    std::vector<uint32_t> groupOf;      ///< by row; cage::kNone: it is made alone
+    std::vector<uint32_t> starts, rows; ///< the rows of group g are those from starts[g] to starts[g + 1]
+};
+
 /// Numbers rows of weights, in the order in which they are needed. The numbers of a net's rows differ by no more than
 /// 16 bits hold (writeNetList()). A row that is needed in nets far from each other has several numbers, and its point
 /// is there as often.
@@ -19,6 +25,10 @@ public:
     /// `farthest`: how far apart the numbers of a net may be. A net has at most half as many rows.
     explicit NeededRows(uint32_t all, uint32_t farthest = 0xFFFF);
 
+    /// Before any row is needed. The rows of a group have numbers that follow each other: all of them count as needed
+    /// when one is. The groups must outlive this.
+    void group(const RowGroups& groups);
+
     void need(uint32_t row);
     /// Puts numbers in the place of a net's rows.
     void needNet(std::span<uint32_t> net);
@@ -26,17 +36,26 @@ public:
     /// By number.
     [[nodiscard]] const std::vector<uint32_t>& rows() const { return rows_; }
     [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(rows_.size()); }
+    /// Of a group whose rows are needed.
+    [[nodiscard]] uint32_t firstOfGroup(uint32_t group) const { return groupFirsts_[group]; }
+    /// The numbers that no group has, rising.
+    [[nodiscard]] const std::vector<uint32_t>& alone() const { return alone_; }
+    /// The rows that have several numbers; some are named several times.
+    [[nodiscard]] std::vector<uint32_t> repeated() const;
     /// The last number of a row that is needed.
     [[nodiscard]] uint32_t number(uint32_t row) const { return numbers_[row]; }
 
 private:
     void add(uint32_t row);
+    void addAlone(uint32_t row);
     [[nodiscard]] uint32_t firstOf(uint32_t number) const;
     template <class NumberOf>
     [[nodiscard]] bool areNear(std::span<const uint32_t> net, const NumberOf& numberOf) const;
     void numberAgain(std::span<uint32_t> net);
 
-    std::vector<uint32_t> numbers_, rows_;
+    const RowGroups* groups_ = nullptr;
+    std::vector<uint32_t> numbers_, rows_, alone_;
+    std::vector<uint32_t> groupFirsts_;   ///< by group: the number of its first row
     std::map<uint32_t, uint32_t> firsts_; ///< by further number of a row: its first one
     uint32_t farthest_;
 };

@@ -9,6 +9,7 @@
 #include "surface/table_check_common.h"
 
 #include <array>
+#include <bit>
 #include <span>
 
 namespace supple::surface {
@@ -24,11 +25,13 @@ bool checkOwnKernels(TableCheck& check, Subdivision subdivision) {
                                chainKernel(subdivision, kMakesChains, Stage::assemble)};
     const std::array deeper = {chainKernel(subdivision, kMakesLevel, Stage::deepen)};
     const std::array ofCage = {stencilKernel(false, kHalfWords), stencilKernel(false, kWholeWords),
-                               plainVertexKernel(true, false), plainVertexKernel(false, false)};
+                               plainVertexKernel(kPointsFan, false), plainVertexKernel(kRegularFan, false),
+                               plainVertexKernel(kFewFan, false)};
     const std::array inPool = {stencilKernel(true, kHalfWords), stencilKernel(true, kWholeWords),
-                               plainVertexKernel(true, true), plainVertexKernel(false, true)};
-    return checkKernels(check, {{Stage::vertex, std::span(ofCage).first(quads ? 4 : 2)},
-                                {Stage::assemble, std::span(inPool).first(quads ? 4 : 0)},
+                               plainVertexKernel(kPointsFan, true), plainVertexKernel(kRegularFan, true),
+                               plainVertexKernel(kFewFan, true)};
+    return checkKernels(check, {{Stage::vertex, std::span(ofCage).first(quads ? 5 : 2)},
+                                {Stage::assemble, std::span(inPool).first(quads ? 5 : 0)},
                                 {Stage::assemble, chains},
                                 {Stage::deepen, deeper}});
 }
@@ -57,8 +60,8 @@ private:
                               ? checkClasses(check_, {loopRegular, loopIrregular, loopIrregularSharp})
                               : checkClasses(check_, {regular, irregular, irregularSharp, creased});
         check_.begin("tables");
-        // A step, plain vertices, points of level 1, limits, whole chains, then levels.
-        const uint64_t most = uint64_t{7} + lastLevel_;
+        // A step, three kinds of plain vertices, other points of level 1, limits, whole chains, then levels.
+        const uint64_t most = uint64_t{8} + lastLevel_;
         if (!check_.within(0, tables_.constructions.size(), most, "constructions")) {
             return false;
         }
@@ -117,7 +120,11 @@ private:
         }
         const uint64_t count = construction.section.count;
         if (construction.kernel.kind == shared::kRegularFan) {
-            return fans.takeRegular(construction.section.count);
+            return check_.require(construction.from <= fans.count() / 4, "regular ones behind all slots") &&
+                   fans.take(4 * construction.from, 4 * count);
+        }
+        if (construction.kernel.kind == shared::kPointsFan) {
+            return fans.takeRegular(construction.section.count) && checkFanPoints(construction.section);
         }
         constexpr uint64_t kWords = 3;
         const uint64_t first = uint64_t{4} * construction.section.table;
@@ -128,6 +135,22 @@ private:
             const uint64_t spokes = checkFanWeights(check_, check_.word(word + 1), 0, true);
             if (spokes == 0 || !check_.within(0, spokes, shared::kFewSpokes, "spokes") ||
                 !fans.take(check_.word(word), spokes) || !checkTarget(check_, check_.word(word + 2))) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// What fans with points write besides.
+    bool checkFanPoints(const Section& section) {
+        const uint64_t first = uint64_t{4} * section.table, end = first + uint64_t{2} * section.count;
+        if (!check_.words(first, end - first)) {
+            return false;
+        }
+        for (uint64_t word = first; word < end; word += 2) {
+            const uint32_t made = check_.word(word + 1);
+            if (!check_.require(made < 1u << shared::kFanPoints, "points that fans do not have") ||
+                !checkTarget(check_, check_.word(word), static_cast<uint32_t>(std::popcount(made)))) {
                 return false;
             }
         }

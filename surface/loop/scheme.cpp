@@ -104,7 +104,8 @@ private:
                 levelOne_.needNet(nets_.emplace_back(triangles_.netOf(patches[p].facet, firstOf(patches[p]))));
             }
         }
-        chains_.findNets(levelOne_);
+        (void)chains_.findNets();
+        chains_.numberNets(levelOne_);
     }
 
     /// Limits of plain vertices, vertices, points of level 1, other limits, then what chains have.

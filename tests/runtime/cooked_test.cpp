@@ -303,9 +303,9 @@ TEST(Cooked, WhatIsNoCookedFileOfThisVersionIsRefused) {
     ASSERT_TRUE(isCooked(file));
     EXPECT_EQ(refusalOf(file), "");
     std::vector<std::byte> other = file;
-    other[kVersionAt] = std::byte{15};
+    other[kVersionAt] = std::byte{16};
     EXPECT_EQ(refusalOf(other),
-              "hero.supple: a cooked file of version 15, and this is version 14: make it anew: supple cook "
+              "hero.supple: a cooked file of version 16, and this is version 15: make it anew: supple cook "
               "pip.glb -o pip.supple");
     other = file;
     std::reverse(other.begin() + kOrderAt, other.begin() + kOrderAt + 4);

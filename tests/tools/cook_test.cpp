@@ -48,7 +48,7 @@ TEST_F(Cook, AnotherVersionIsToldHowToMakeItAnew) {
     const Outcome outcome = run("inspect pip.supple");
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_EQ(outcome.err,
-              "supple: pip.supple: a cooked file of version 77, and this is version 14: make it anew: supple cook "
+              "supple: pip.supple: a cooked file of version 77, and this is version 15: make it anew: supple cook "
               "pip.glb -o pip.supple --scheme pm --rate 8 --for grids --mapping both --clip-error 0.0001 --parts-apart "
               "--scene 0\n");
 }

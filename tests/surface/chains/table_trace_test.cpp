@@ -117,6 +117,13 @@ private:
         if (const uint32_t chain = at_.element(record + 1, 0); chain != 0) {
             at_.write(chain - 1);
         }
+        if (const uint32_t centre = at_.element(record + 1, 3); centre != 0) {
+            const uint32_t step = at_.element(arrangement, 2), each = loop_ ? 1 : 2;
+            (void)at_.element(at_.element(record, 1) + 1, 0);
+            point(1 + each * at_.element(step, 2));
+            point(1 + each * at_.element(step, 3));
+            at_.write(centre);
+        }
     }
 
     [[nodiscard]] uint32_t index(uint32_t h, uint32_t a, uint32_t b) const {
@@ -211,7 +218,8 @@ private:
     }
     void level(uint32_t lane) {
         const uint32_t word = at_.element(block_, 2), l = word >> kChainLevelShift;
-        const uint32_t vertices = word & ((1u << kChainLevelShift) - 1), items = vertices * (fan_[0] + fan_[2] + 1);
+        const uint32_t vertices = word & ((1u << kChainLevelShift) - 1), centres = makes_ == kMakesFirstLevel ? 0 : 1;
+        const uint32_t items = vertices * (fan_[0] + fan_[2] + centres);
         if (!at_.expect(vertices > 0, "vertices", 0)) {
             return;
         }

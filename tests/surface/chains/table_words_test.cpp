@@ -116,7 +116,14 @@ private:
     }
 
     void addPlain(const Construction& c) {
-        for (uint32_t i = 0; c.kernel.kind != kRegularFan && i < c.section.count; ++i) {
+        if (c.kernel.kind == kPointsFan) {
+            for (uint32_t i = 0; i < c.section.count; ++i) {
+                const uint64_t word = uint64_t{4} * c.section.table + uint64_t{2} * i;
+                add("first point of a fan", word, pool() - std::popcount(at(word + 1)) + 1);
+                add("points that a fan makes", word + 1, uint64_t{1} << kFanPoints);
+            }
+        }
+        for (uint32_t i = 0; c.kernel.kind == kFewFan && i < c.section.count; ++i) {
             const uint64_t word = uint64_t{4} * c.section.table + uint64_t{3} * i;
             add("slot of a plain vertex", word, at(word) + uint64_t{1});
             add("weights of a plain vertex", word + 1, elements());
@@ -153,7 +160,8 @@ private:
                 const uint32_t count = at(word + 2) & ((1u << kChainLevelShift) - 1);
                 numbers_.push_back({"number of vertices of a block", word + 2, vertices_ + uint64_t{1}, 0, 24, true});
                 numbers_.push_back({"level of a block", word + 2, lastLevel() + 1, kChainLevelShift, 8, true});
-                add("item of a block", word + 3, count * uint64_t{at(fan) + at(fan + 2) + 1});
+                const uint32_t centres = c.kernel.kind == kMakesFirstLevel ? 0 : 1;
+                add("item of a block", word + 3, count * uint64_t{at(fan) + at(fan + 2) + centres});
             }
         }
     }
@@ -176,6 +184,7 @@ private:
         }
         add("normals of a vertex", record + 5, pool() - at(uint64_t{4} * at(record + 2)) + 1);
         add("first point of a vertex's net", record + 6, pool());
+        add("centre of a vertex's chain", record + 7, chain + 1);
         for (uint32_t k = 0; k < size; ++k) {
             addHalf("point of a vertex's net", net, k, pool() - at(record + 6));
         }
@@ -369,13 +378,13 @@ TEST(ExactTableWords, QuadsOfCatmullClark) {
     const std::set<std::string> kinds =
         expectAllChecked(SchemeId::catmullClark, {withCharts(withCreases(withoutFaces(jack(), {0, 9}), true), true),
                                                   withCharts(gyroBipyramid(5)), straightCrease()});
-    EXPECT_EQ(kinds.size(), 55u) << "all that the list has for quads";
+    EXPECT_EQ(kinds.size(), 58u) << "all that the list has for quads";
 }
 
 TEST(ExactTableWords, TrianglesOfLoop) {
     const std::set<std::string> kinds = expectAllChecked(
         SchemeId::loop, {withCharts(withCreases(withoutFaces(quartered(gyroBipyramid(5)), {3}), false), true), cube()});
-    EXPECT_EQ(kinds.size(), 44u) << "all that the list has for triangles";
+    EXPECT_EQ(kinds.size(), 45u) << "all that the list has for triangles";
 }
 
 } // namespace
