@@ -31,14 +31,20 @@ struct SpringCode {
     void keepLocal(uint node, const Transform& t) const { locals[node].rotation = t.rotation; }
     [[nodiscard]] Affine nodeGlobal(uint node) const { return globals[node]; }
     void keepGlobal(uint node, const Affine& m) const { globals[node] = m; }
-    [[nodiscard]] vec4 posedCollider(uint collider, uint element) const {
-        return colliders[kPosedColliderElements * collider + element];
+    [[nodiscard]] PosedCollider posedCollider(uint collider) const {
+        const vec4* const elements = colliders + kPosedColliderElements * collider;
+        return {elements[0], elements[1]};
     }
     void keepCollider(uint collider, const vec4& point, const vec4& way) const {
         colliders[kPosedColliderElements * collider] = point;
         colliders[kPosedColliderElements * collider + 1] = way;
     }
-    [[nodiscard]] vec4 spring(uint i) const { return springs[i]; }
+    [[nodiscard]] Affine springRows(uint i) const { return rowsOf(springs[i], springs[i + 1], springs[i + 2]); }
+    void keepSpringRows(uint i, const Affine& rows) const {
+        springs[i] = rows.x;
+        springs[i + 1] = rows.y;
+        springs[i + 2] = rows.z;
+    }
     void keepSpring(uint i, const vec4& v) const { springs[i] = v; }
 #include "shaders/pose/springs.h"
 

@@ -2,12 +2,23 @@
 // (docs/lod.md, "The idea" and "The budget"). One invocation a patch and instance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define LOD_WRITE
 #define PUSH_CONSTANTS LodPush
 #include "shaders/shared/lod.h"
 #include "shaders/surface/tables.glsl"
-#include "shaders/lod/lod.glsl"
+#include "shaders/lod/runs.glsl"
 #include "shaders/lod/levels.glsl"
+
+// The view's buffer by elements (lod.glsl has it by words): a record is four stores. All that writes goes through one binding. If the
+// buffer were bound twice, synchronization validation would see groups read what others write.
+BUFFER(coherent, Lod, kLodBinding, std430, uvec4, lodElements)
+#ifdef WIDE
+uint lodWord(uint i) { return lodElements.at[i >> 2u][i & 3u]; }
+#else
+layout(set = 0, binding = kLodTexelBinding) uniform usamplerBuffer lodTexels;
+uint lodWord(uint i) { return texelFetch(lodTexels, int(i >> 2u))[i & 3u]; }
+#endif
+// Takes `count` places behind those that the bucket with this element has given (LodBucket::cursor); the first of them.
+uint takePlaces(uint element, uint count) { return atomicAdd(lodElements.at[element].z, count); }
 
 // On GPUs a workgroup takes its places together, if there are not too many buckets to have a word each.
 const uint kMaxTaken = 64u * kCapacityCount;
@@ -17,12 +28,6 @@ shared uint taken[kMaxTaken];
 uvec2 levelPair(float level) {
     precise float a = (level - 1.0) * 0.5, inverse = 1.0 / level;
     return floatBitsToUint(vec2(a, inverse));
-}
-
-// Through the binding that places are taken with. If the buffer were bound twice, synchronization validation would see groups read
-// what others write.
-void storeElement(uint to, uvec4 words) {
-    for (uint k = 0u; k < 4u; ++k) lodWords.at[to + k] = words[k];
 }
 
 void main() {
@@ -52,12 +57,12 @@ void main() {
         barrier();
         for (uint i = lane; i < bucketCount; i += gl_WorkGroupSize.x) {
             uint n = taken[i];
-            if (n > 0u) taken[i] = atomicAdd(lodWords.at[firstBucket + 4u * i + 2u], n);
+            if (n > 0u) taken[i] = takePlaces(firstBucket / 4u + i, n);
         }
         barrier();
         place += taken[local];
     } else if (drawn) {
-        place = atomicAdd(lodWords.at[bucket + 2u], 1u);
+        place = takePlaces(bucket / 4u, 1u);
     }
     if (!drawn || place >= lodWord(bucket + 4u) - lodWord(bucket)) return;
 
@@ -90,11 +95,11 @@ void main() {
         for (uint k = 0u; k < 5u; ++k) pairs[1u + k] = ofEdges[k];
     }
     uint samples = formSamples(form, capacityOf(capacity));
-    uint to = SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * (lodWord(bucket) + place);
+    uint to = (SUPPLE_LOD_RECORDS(push.runs) + kLodRecordWords * (lodWord(bucket) + place)) / 4u;
 #ifndef TASKS // an address knows no length; what the solver has found a place for fits
-    if (to + kLodRecordWords > uint(lodWords.at.length())) return;
+    if (to + kLodRecordWords / 4u > uint(lodElements.at.length())) return;
 #endif
-    storeElement(to, uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
-                           lodWord(bucket + 1u) + place * samples, capacity));
-    for (uint k = 0u; k < 3u; ++k) storeElement(to + 4u * (k + 1u), uvec4(pairs[2u * k], pairs[2u * k + 1u]));
+    lodElements.at[to] = uvec4(patchIndex, (push.window.firstSlot + instance) | (listed & kInstanceIsNew),
+                               lodWord(bucket + 1u) + place * samples, capacity);
+    for (uint k = 0u; k < 3u; ++k) lodElements.at[to + k + 1u] = uvec4(pairs[2u * k], pairs[2u * k + 1u]);
 }

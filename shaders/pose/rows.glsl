@@ -1,10 +1,11 @@
 // Rows of transforms that lie in a buffer, one after the other. Needs affine.h. On CPU devices each load and store of a buffer is a
-// loop over the lanes, of which drivers compile one for every place in the code: there the three rows take turns in one place.
+// loop over the lanes, of which drivers compile one for every place in the code: there elements take turns in one place.
 #ifdef WIDE
-#define ROWS [[unroll]] for (uint k = 0u; k < 3u; ++k)
+#define TURNS(count) [[unroll]] for (uint k = 0u; k < count; ++k)
 #else
-#define ROWS [[dont_unroll]] for (uint k = 0u; k < 3u; ++k)
+#define TURNS(count) [[dont_unroll]] for (uint k = 0u; k < count; ++k)
 #endif
+#define ROWS TURNS(3u)
 
 vec4 rowAt(Affine m, uint k) {
     if (k == 0u) return m.x;

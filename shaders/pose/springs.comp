@@ -36,17 +36,35 @@ void keepGlobal(uint node, Affine m) {
 uint colliderPlace(uint collider) {
     return locals + push.springScratch + kAffineElements + kPosedColliderElements * collider;
 }
-vec4 posedCollider(uint collider, uint element) { return scratch.at[colliderPlace(collider) + element]; }
+PosedCollider posedCollider(uint collider) {
+    PosedCollider posed;
+    uint i = colliderPlace(collider);
+    TURNS(kPosedColliderElements) {
+        vec4 element = scratch.at[i + k];
+        if (k == 0u) posed.point = element;
+        else posed.way = element;
+    }
+    return posed;
+}
 void keepCollider(uint collider, vec4 point, vec4 way) {
     precise vec4 first = point;
     precise vec4 second = way;
     uint i = colliderPlace(collider);
     if (listed) {
-        scratch.at[i] = first;
-        scratch.at[i + 1u] = second;
+        TURNS(kPosedColliderElements) scratch.at[i + k] = k == 0u ? first : second;
     }
 }
-vec4 spring(uint i) { return springs.at[tails + i]; }
+Affine springRows(uint i) {
+    Affine rows = identity();
+    ROWS rows = withRow(rows, k, springs.at[tails + i + k]);
+    return rows;
+}
+void keepSpringRows(uint i, Affine rows) {
+    precise Affine own = rows;
+    if (listed) {
+        ROWS springs.at[tails + i + k] = rowAt(own, k);
+    }
+}
 void keepSpring(uint i, vec4 v) {
     precise vec4 own = v;
     if (listed) springs.at[tails + i] = own;
@@ -89,7 +107,7 @@ void main() {
     now.settles = (steps & kStepSettles) != 0u;
     uint jump = (steps >> kStepJumpShift) & 15u;
     steps = min(steps & kStepCountMask, kMostDueSteps);
-    precise Affine before = rowsOf(spring(0u), spring(1u), spring(2u));
+    precise Affine before = springRows(0u);
     meet();
     for (uint k = 0u; k < steps; ++k) {
         beginEntry(first + k);
@@ -103,11 +121,7 @@ void main() {
         now.place = scratchRows(locals + kAffineElements * push.nodeCount);
         runStep(all, now, lane, lanes);
     }
-    if (lane == 0u && steps != 0u) {
-        keepSpring(0u, before.x);
-        keepSpring(1u, before.y);
-        keepSpring(2u, before.z);
-    }
+    if (lane == 0u && steps != 0u) keepSpringRows(0u, before);
     uint shown = instanceWord(words + 5u);
     if (shown == kNotShown) return;
     locals = shown * push.scratchStride;

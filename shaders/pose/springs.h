@@ -1,6 +1,6 @@
 // Joints that swing: steps of an instance on the grid of times, then what it shows between the last two. Needs what nodes.h
 // needs; colliders.h; of what is stepped or shown nodeLocal(), keepLocal(), nodeGlobal(), keepGlobal(),
-// posedCollider(), keepCollider(); of the instance spring(), keepSpring().
+// posedCollider(), keepCollider(); of the instance springRows(), keepSpringRows(), keepSpring().
 #include "shaders/pose/nodes.h"
 
 struct SpringTables {
@@ -77,22 +77,23 @@ vec4 swungRotation(uint element, uvec4 ids, Affine above, Transform own, SpringS
         frame = nodeGlobal(center);
         move = frame;
     }
-    SUPPLE_PRECISE vec3 last = through(move, vec3(spring(at)));
-    SUPPLE_PRECISE vec3 before = through(move, vec3(spring(at + 1u)));
+    Affine kept = springRows(at); // the tails of the last two steps, the offset of the last
+    SUPPLE_PRECISE vec3 last = through(move, vec3(kept.x));
+    SUPPLE_PRECISE vec3 before = through(move, vec3(kept.y));
     SUPPLE_PRECISE vec3 pull = worldDirection(now.place, vec3(gravity)) * gravity.w;
     SUPPLE_PRECISE vec3 carried = now.wind * (kStepSeconds * (1.0f - ways.x)); // what drag takes, the air gives
     pull = pull + carried;
     SUPPLE_PRECISE vec3 way = directionOr(swungTail(last, before, axis, tail.w, ways.x, pull) - head, axis);
     SUPPLE_PRECISE vec3 next = head + way * size;
     for (uint k = 0u; k < ids.w; ++k) {
-        uint collider = colliderAt(ids.z + k);
-        next = pushedOut(next, ways.y, posedCollider(collider, 0u), posedCollider(collider, 1u));
+        PosedCollider posed = posedCollider(colliderAt(ids.z + k));
+        next = pushedOut(next, ways.y, posed.point, posed.way);
         way = directionOr(next - head, way);
         next = head + way * size;
     }
     SUPPLE_PRECISE vec3 turnedWay = directionWithin(above, way, rest);
     SUPPLE_PRECISE vec4 offset = vec4(turnedWay - rest, 0.0f);
-    SUPPLE_PRECISE vec4 offsetBefore = spring(at + 2u);
+    SUPPLE_PRECISE vec4 offsetBefore = kept.z;
     SUPPLE_PRECISE vec4 rotation = turned(swingTurn(rest, turnedWay), unit(own.rotation));
     if (now.settles) {
         next = head + bone;
@@ -105,9 +106,7 @@ vec4 swungRotation(uint element, uvec4 ids, Affine above, Transform own, SpringS
         next = within(frame, next);
         last = within(frame, last);
     }
-    keepSpring(at, vec4(next, 0.0f));
-    keepSpring(at + 1u, vec4(last, 0.0f));
-    keepSpring(at + 2u, offset);
+    keepSpringRows(at, rowsOf(vec4(next, 0.0f), vec4(last, 0.0f), offset));
     keepSpring(at + 3u, offsetBefore);
     return rotation;
 }
@@ -132,8 +131,8 @@ void stepChain(uvec4 chain, SpringStep now) {
 void showSpringNode(uint element, float part, float fade) {
     uvec4 ids = table(element);
     for (bool swings = ids.y != kNoNode; swings; swings = false) {
-        uint at = kSpringJoints + kSpringJointElements * ids.y;
-        vec3 now = vec3(spring(at + 2u)), before = vec3(spring(at + 3u));
+        Affine kept = springRows(kSpringJoints + kSpringJointElements * ids.y + 1u);
+        vec3 now = vec3(kept.y), before = vec3(kept.z);
         SUPPLE_PRECISE vec3 offset = (before + (now - before) * part) * fade;
         SUPPLE_PRECISE Transform own = nodeLocal(ids.x);
         SUPPLE_PRECISE vec3 rest = direction(directionThrough(composed(own), vec3(tableFloats(element + 1u))));
