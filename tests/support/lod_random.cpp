@@ -37,7 +37,7 @@ constexpr const char* kRandomCapacity = R"(
     uint bin = min(uint(at), kLodBins - 2u), weight = min(uint((at - float(bin)) * float(kSplitUnit)), kSplitUnit);)";
 
 /// What a record says its capacity's index is: any word.
-constexpr const char* kWrongCapacity = "place * samples, (patchIndex * 2654435761u) >> (patchIndex % 32u)));";
+constexpr const char* kWrongCapacity = "place * samples, (patchIndex * 2654435761u) >> (patchIndex % 32u));";
 
 /// A kernel with a piece of it replaced. Optimized, as the layouts have the bindings of their mapping alone. Each is
 /// compiled once in a process: that takes a second.
@@ -79,7 +79,7 @@ RandomLevels::RandomLevels(const Options& options) : edges_(options.edges) {
         }
     }
     if (options.wrongCapacities) {
-        replace(Kernel::lodPlace, edited("lod/place.comp", "place * samples, capacity));", kWrongCapacity, macros));
+        replace(Kernel::lodPlace, edited("lod/place.comp", "place * samples, capacity);", kWrongCapacity, macros));
     }
     if (testDevice() == nullptr || !areThere) {
         ADD_FAILURE() << "no device, or no shaders";
