@@ -27,6 +27,7 @@ public:
             change();
         }
         changePoints(frame);
+        changeQueries(frame);
         time_ += 0.03;
         set(suppleSetTime(handle(), played_.group, time_));
         const float wind[3] = {static_cast<float>(frame % 5), 0.0f, 1.0f};
@@ -40,6 +41,7 @@ public:
             }
             const SuppleGroup groups[] = {posed_.group, follower_, played_.group, rates_.group, sharp_.group};
             set(context_.record(commands, groups));
+            ask(commands);
         });
         EXPECT_TRUE(ran.ok());
         if (frame % 9 == 5) {
@@ -78,6 +80,33 @@ private:
             points_ = {};
         }
 #endif
+    }
+
+    /// A query pool for a few frames: its kernels take long to compile.
+    void changeQueries([[maybe_unused]] uint32_t frame) {
+#if defined(SUPPLE_WITH_CPU)
+        if (frame == 20) {
+            SuppleQueryPoolDesc desc{};
+            desc.structSize = sizeof desc;
+            desc.groups = &posed_.group;
+            desc.groupCount = desc.rayCount = 1;
+            set(suppleCreateQueryPool(handle(), &desc, &queries_));
+        } else if (frame == 24 && queries_.id != 0) {
+            set(suppleDestroyQueryPool(handle(), queries_));
+            queries_ = {};
+        }
+#endif
+    }
+    void ask(VkCommandBuffer commands) {
+        if (queries_.id == 0) {
+            return;
+        }
+        const SuppleRay ray{{number(), number(), 9.0f}, 0.0f, {0.0f, 0.0f, -1.0f}, 20.0f};
+        SuppleQueryDesc desc{};
+        desc.structSize = sizeof desc;
+        desc.hostRays = &ray;
+        desc.rayCount = 1;
+        set(suppleRecordQueries(handle(), commands, queries_, &desc));
     }
 
     void create() {
@@ -375,6 +404,7 @@ private:
     Many posed_, played_, rates_, sharp_;
     SuppleGroup follower_{};
     SupplePointSet points_{};
+    SuppleQueryPool queries_{};
     double time_ = 0.0;
     VkDeviceSize budget_ = 1u << 22;
     bool hasMask_ = false;
