@@ -89,7 +89,7 @@ Result<uint64_t> Context::createQueryPool(const SuppleQueryPoolDesc& desc) {
         const Result<QueryKernels*> kernels = kernels_->queries();
         const Status prepared = kernels ? (*kernels)->prepareNearest() : Status(kernels.error());
         if (!prepared) {
-            return prepared.error();
+            return Error{prepared.error().code, "suppleCreateQueryPool: " + prepared.error().message};
         }
     }
     for (uint32_t g = 0; g < desc.groupCount; ++g) {

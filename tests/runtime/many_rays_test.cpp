@@ -2,7 +2,6 @@
 #include "runtime/api/entry.h"
 #include "shaders/shared/queries.h"
 #include "tests/support/crowd.h"
-#include "tests/support/dense_triangles.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/read_character.h"
@@ -15,7 +14,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <limits>
-#include <optional>
 #include <random>
 
 namespace supple::test {
