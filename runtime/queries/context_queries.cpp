@@ -53,7 +53,8 @@ Result<std::shared_ptr<QueryGroup>> Context::queryGroup(const std::shared_ptr<Gr
     if (!prepared) {
         return prepared.error();
     }
-    if (pieces == nullptr) {
+    // Pieces that come from a pool of few rays have no tree.
+    if (pieces == nullptr || (buffers.areMany() && pieces->firstLeaf == 0)) {
         const auto surfaces = surfacesOf(*group);
         if (!surfaces) {
             return surfaces.error();
