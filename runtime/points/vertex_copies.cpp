@@ -42,13 +42,19 @@ Status VertexCopies::bind() {
         return success();
     }
     Status status = sets_.create(*source_.device, source_.kernels->copyLayout(), count(), "supple points on vertices");
+    const VkBufferView instances = views_.make(*source_.device, source_.listing->buffer().buffer(), VK_FORMAT_R32_UINT,
+                                               0, source_.listing->passBytes(), "supple instances", status);
+    if (!status) {
+        unbind(); // sets that nothing was written to are not to be bound
+        return status;
+    }
     size_t set = 0;
     for (const uint32_t surface : surfaces_) {
         for (const Target& target : targets_) {
-            status = status ? makeSet(set++, surface, target) : status;
+            writeSet(set++, surface, target, instances);
         }
     }
-    return status;
+    return success();
 }
 
 void VertexCopies::unbind() {
@@ -56,14 +62,10 @@ void VertexCopies::unbind() {
     views_ = {};
 }
 
-Status VertexCopies::makeSet(size_t set, uint32_t surface, const Target& target) {
+void VertexCopies::writeSet(size_t set, uint32_t surface, const Target& target, VkBufferView instances) {
     const Tessellation& own = (*source_.surfaces)[surface];
     const InstanceWindows& windows = source_.listing->windows();
-    const VkBuffer list = source_.listing->buffer().buffer();
     const VkDeviceSize bytes = VkDeviceSize{vertexStride(own)} * bytesOfVertex(own);
-    Status status = success();
-    const VkBufferView instances = views_.make(*source_.device, list, VK_FORMAT_R32_UINT, 0,
-                                               source_.listing->passBytes(), "supple instances", status);
     const gpu::BoundResource resources[] = {
         {kPointVertexBinding,
          {own.streams()->buffer(Stream::vertices), windows.firstSlot(target.window) * bytes,
@@ -72,13 +74,10 @@ Status VertexCopies::makeSet(size_t set, uint32_t surface, const Target& target)
         {kVertexPointBinding, {source_.entries, 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
         {kPointBinding, target.points, VK_NULL_HANDLE},
         {kPointPastBinding, target.pasts, VK_NULL_HANDLE},
-        {kInstanceBinding, {list, 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
+        {kInstanceBinding, {source_.listing->buffer().buffer(), 0, VK_WHOLE_SIZE}, VK_NULL_HANDLE},
         {kInstanceTexelBinding, {}, instances},
     };
-    if (status) {
-        sets_.write(*source_.device, source_.kernels->copyLayout(), set, resources);
-    }
-    return status;
+    sets_.write(*source_.device, source_.kernels->copyLayout(), set, resources);
 }
 
 const VertexPoints::Run* VertexCopies::runOf(uint32_t surface) const {

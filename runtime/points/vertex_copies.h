@@ -46,7 +46,7 @@ public:
 private:
     /// The surface's points as they are now; null: none.
     [[nodiscard]] const VertexPoints::Run* runOf(uint32_t surface) const;
-    [[nodiscard]] Status makeSet(size_t set, uint32_t surface, const Target& target);
+    void writeSet(size_t set, uint32_t surface, const Target& target, VkBufferView instances);
 
     Source source_;
     std::vector<Target> targets_;

@@ -52,7 +52,9 @@ public:
                 if (!mayBeSample(own.place, rate << surface_.tables().isolationSteps)) {
                     continue;
                 }
-                vertices = vertices.empty() ? surface_.verticesOf(patch, rate) : std::move(vertices);
+                if (vertices.empty()) {
+                    vertices = surface_.verticesOf(patch, rate);
+                }
                 const cpu::Place place = uniquePlace(domain, own.place);
                 for (uint32_t sample = 0; sample < vertices.size(); ++sample) {
                     if (isSamePlace(uniquePlace(domain, part_.surface->placeOfSample(patch, rate, sample, 0.0)),

@@ -53,7 +53,8 @@ Result<std::shared_ptr<QueryGroup>> Context::queryGroup(const std::shared_ptr<Gr
     if (!prepared) {
         return prepared.error();
     }
-    if (pieces == nullptr) {
+    // Pieces that come from a pool of few rays have no tree.
+    if (pieces == nullptr || (buffers.areMany() && pieces->firstLeaf == 0)) {
         const auto surfaces = surfacesOf(*group);
         if (!surfaces) {
             return surfaces.error();
@@ -89,7 +90,7 @@ Result<uint64_t> Context::createQueryPool(const SuppleQueryPoolDesc& desc) {
         const Result<QueryKernels*> kernels = kernels_->queries();
         const Status prepared = kernels ? (*kernels)->prepareNearest() : Status(kernels.error());
         if (!prepared) {
-            return prepared.error();
+            return Error{prepared.error().code, "suppleCreateQueryPool: " + prepared.error().message};
         }
     }
     for (uint32_t g = 0; g < desc.groupCount; ++g) {

@@ -28,8 +28,7 @@ void NearestKernels::recordFind(gpu::Dispatches& dispatches, const gpu::BoundSet
 
 void NearestKernels::recordFinish(gpu::Dispatches& dispatches, const gpu::BoundSet& set,
                                   const shared::QueryPush& push) const {
-    const uint64_t local = dispatches.device().mapping.localSize;
-    dispatches.dispatch(finish_, set, push, (push.rayCount + local - 1) / local);
+    QueryKernels::recordEachRay(dispatches, finish_, set, push);
 }
 
 } // namespace supple::runtime

@@ -203,7 +203,9 @@ void QueryGroup::recordTree(gpu::Dispatches& dispatches, const Batch& batch, Tre
         // Windows have the trees one after the other.
         const uint32_t window = push.firstSlot / windows.size;
         push.turn = turn % push.turns;
-        if (push.instanceCount > 0 && push.pieceCount > 0 && turn / push.turns == window) {
+        // No more instances can be met than are listed: turns behind them would have nothing to do.
+        const bool isNeeded = uint64_t{push.turn} * push.treeCount < push.instanceCount;
+        if (isNeeded && push.pieceCount > 0 && turn / push.turns == window) {
             tree_->record(dispatches, pass, window, push, boxes_.buffer(0));
         }
     });

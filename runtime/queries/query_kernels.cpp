@@ -96,6 +96,12 @@ void QueryKernels::recordRays(gpu::Dispatches& dispatches, const gpu::Kernel& ke
     }
 }
 
+void QueryKernels::recordEachRay(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
+                                 const QueryPush& push) {
+    const uint64_t local = dispatches.device().mapping.localSize;
+    dispatches.dispatch(kernel, set, push, (push.rayCount + local - 1) / local);
+}
+
 void QueryKernels::recordList(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
     dispatches.dispatch(list_, set, push, 1);
 }
@@ -107,13 +113,11 @@ void QueryKernels::recordPick(gpu::Dispatches& dispatches, const gpu::BoundSet& 
 }
 
 void QueryKernels::recordRefine(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
-    const uint64_t local = device_->mapping.localSize;
-    dispatches.dispatch(refine_, set, push, (push.rayCount + local - 1) / local);
+    recordEachRay(dispatches, refine_, set, push);
 }
 
 void QueryKernels::recordFinish(gpu::Dispatches& dispatches, const gpu::BoundSet& set, const QueryPush& push) const {
-    const uint64_t local = device_->mapping.localSize;
-    dispatches.dispatch(finish_, set, push, (push.rayCount + local - 1) / local);
+    recordEachRay(dispatches, finish_, set, push);
 }
 
 } // namespace supple::runtime

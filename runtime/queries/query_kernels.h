@@ -40,6 +40,9 @@ public:
     /// be numbered in.
     static void recordRays(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
                            shared::QueryPush push, uint64_t lanes);
+    /// A lane for each of them.
+    static void recordEachRay(gpu::Dispatches& dispatches, const gpu::Kernel& kernel, const gpu::BoundSet& set,
+                              const shared::QueryPush& push);
 
 private:
     const gpu::Device* device_ = nullptr;

@@ -140,9 +140,10 @@ void QueryPool::recordCast(gpu::Dispatches& dispatches, uint32_t rays) const {
     for (uint32_t turn = 0; turn < turns; ++turn) {
         for (const Pass pass : {Pass::fit, Pass::refit, Pass::cast}) {
             recordEach(dispatches, rays, [&](const QueryGroup& group, const QueryGroup::Batch& batch) {
-                if (turn < group.turns()) {
-                    group.recordTree(dispatches, batch, pass, turn);
+                if (turn >= group.turns()) {
+                    return;
                 }
+                group.recordTree(dispatches, batch, pass, turn);
                 if (pass == Pass::cast) {
                     dispatches.computeBarrier(); // the next group's rays begin with what these have met
                 }

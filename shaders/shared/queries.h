@@ -84,7 +84,7 @@ struct QueryPush {
     uint rayCount;      // behind the last
     uint firstBox;      // of the window, counted in instances
     uint firstLane;     // of the window, among the lanes of all windows that may own a hit
-    uint work;          // kFindLeast or kFindOwner
+    uint work;          // kFindLeast, kFindOwner or kFindBound
     uint group;         // its number in the pool
     uint firstSlot;     // of the window
     uint firstTriangle; // refine: the first hit of a triangle, in rays

@@ -2,7 +2,6 @@
 #include "runtime/api/entry.h"
 #include "shaders/shared/queries.h"
 #include "tests/support/crowd.h"
-#include "tests/support/dense_triangles.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/limited_device.h"
 #include "tests/support/read_character.h"
@@ -15,7 +14,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <limits>
-#include <optional>
 #include <random>
 
 namespace supple::test {
@@ -191,6 +189,28 @@ TEST_F(ManyRays, MeetACharacter) {
         }
         expectSameHits(many.ask(rays), wanted);
     }
+}
+
+/// Pools share the pieces that a reload makes. A pool of few rays makes them first, in whatever order pools come, and
+/// it needs no trees.
+TEST_F(ManyRays, MeetAnAssetThatIsReloaded) {
+    CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
+    cage::Character tube = swayingTube();
+    const SuppleAsset asset = own.createAsset(tube);
+    Crowd crowd(own, crowdDesc(asset, SUPPLE_SCHEME_CATMULL_CLARK, 2));
+    crowd.pose(crowd.spawn(), 0, 0.3, glm::mat4(1.0f));
+    const std::vector<SuppleRay> rays = raysAround(1, 1.0f, 3.0f, 100);
+    RayPool few(own, {crowd.group()}, shared::kRaysPerLane), many(own, {crowd.group()}, rays.size()),
+        last(own, {crowd.group()}, shared::kRaysPerLane);
+    const std::vector<SuppleHit> before = many.ask(rays);
+    for (glm::vec3& p : tube.cage.positions) {
+        p.y *= 1.2f;
+    }
+    ASSERT_EQ(own.reloadAsset(asset, tube), SUPPLE_OK);
+    const std::vector<SuppleHit> hits = many.ask(rays);
+    expectSameHits(hits, few.askFew(rays));
+    expectSameHits(hits, last.askFew(rays));
+    EXPECT_NE(std::memcmp(hits.data(), before.data(), hits.size() * sizeof(SuppleHit)), 0);
 }
 
 /// A device that binds little: instances lie in several windows, and there are trees of a few at a time.

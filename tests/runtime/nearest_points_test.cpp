@@ -10,7 +10,6 @@
 #include "tools/common/procedural.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>

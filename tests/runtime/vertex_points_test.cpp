@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <memory>
@@ -90,7 +88,6 @@ struct VertexUse {
     SuppleScheme scheme;
     uint32_t flags = 0;
     bool changesRate = true;
-    uint32_t steps = 0; ///< that its patches are smaller than faces of quads
 };
 constexpr VertexUse kVertexUses[] = {{"prep", SUPPLE_SCHEME_PREP},
                                      {"pm", SUPPLE_SCHEME_PM},

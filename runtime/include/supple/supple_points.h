@@ -80,7 +80,8 @@ typedef enum SupplePointFormat {
 /** SupplePointSetDesc.flags. */
 typedef enum SupplePointSetFlags {
     /** Points that lie where a surface vertex is have that vertex's position, to the bit. Other points, and how all are
-     * turned, are as they are without the flag. For groups without a view that keep surface vertices, of any scheme. */
+     * turned, are as they are without the flag. For groups without a view that keep surface vertices, of any scheme
+     * but SUPPLE_SCHEME_CAGE. */
     SUPPLE_POINT_SET_ON_VERTICES = 1,
     SUPPLE_POINT_SET_FLAGS_MAX_ENUM = 0x7FFFFFFF
 } SupplePointSetFlags;

@@ -35,8 +35,8 @@ typedef struct SuppleRay {
     float tMax;         /**< nothing is met behind */
 } SuppleRay;
 
-/** A place that the nearest point is asked for, in the coordinates of surface vertices. If a number is not finite, but
- * for mostDistance, or mostDistance is below 0, this place has none. */
+/** A place that the nearest point is asked for, in the coordinates of surface vertices. If a coordinate is not finite,
+ * or mostDistance is below 0 or no number, this place has none. */
 typedef struct SupplePlace {
     float position[3];  /**< x, y, z */
     float mostDistance; /**< nothing farther is found; may be infinite. The less, the less is searched */
@@ -122,9 +122,9 @@ typedef struct SuppleQueryDesc {
     /** What wrote the device's rays, triangles and places, and what used the hits of earlier frames. */
     SuppleSyncScope before;
     SuppleSyncScope after; /**< what reads the hits on the device */
-    /** Instead of rays: places of the host that the nearest points are asked for. Of points that are equally near
-     * (distances that differ by less than a millionth of the instance's size, and what rounding leaves far from the
-     * origin), it is that of the first group, instance and face. */
+    /** Instead of rays: places of the host that the nearest points are asked for. If several points are equally near
+     * (their distances differ by less than a millionth of the instance's size), the first group, instance and face has
+     * the one that is found. */
     const SupplePlace* hostPlaces;
     SuppleBufferRange places; /**< or those of the device, 16 bytes apart, else as rays */
 } SuppleQueryDesc;
@@ -156,8 +156,10 @@ SUPPLE_API SuppleResult suppleGetQueryOutput(SuppleContext context, SuppleQueryP
 /** Records what rays meet or what is nearest to places, once a frame at most: behind suppleRecord of the groups, in the
  * same frame and queue, outside of render passes. Instances take part that suppleRecord deforms in this frame: hidden
  * ones do not, nor those that it leaves out as their view does not see them (SUPPLE_VIEW_CULL without
- * SUPPLE_GROUP_POSE_UNSEEN), nor groups that wait for their uploads. Parts that an instance hides are met. A pool is
- * used by one thread at a time.
+ * SUPPLE_GROUP_POSE_UNSEEN), nor groups that wait for their uploads. Parts that an instance hides are met.
+ *
+ * A pool is used by one thread at a time. If `desc->groups` names the groups that this thread has recorded, other
+ * threads may record other groups of the pool meanwhile. Without names, no other thread may record a group of the pool.
  *
  * Errors: a stale handle; unknown flags; more rays than the pool is for; more than one of the four kinds of rays and
  * places, or none; rays beyond the range; places in a pool without SUPPLE_QUERY_POOL_NEAREST, or with triangles; a
