@@ -101,7 +101,7 @@ private:
         if (queries_.id == 0) {
             return;
         }
-        const SuppleRay ray{{number(), number(), 9.0f}, 0.0f, {0.0f, 0.0f, -1.0f}, 20.0f};
+        const SuppleRay ray{{0.5f, 0.25f, 9.0f}, 0.0f, {0.0f, 0.0f, -1.0f}, 20.0f};
         SuppleQueryDesc desc{};
         desc.structSize = sizeof desc;
         desc.hostRays = &ray;

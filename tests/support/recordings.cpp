@@ -95,8 +95,8 @@ size_t expectSame(const Hashes& recorded, const Hashes& replayed) {
             continue;
         }
         ++compared;
-        EXPECT_EQ(found->second, sums) << "frame " << std::get<0>(key) << ", stage " << std::get<2>(key) << ", surface "
-                                       << std::get<3>(key);
+        EXPECT_EQ(found->second, sums) << "frame " << std::get<0>(key) << ", group " << std::get<1>(key) << ", stage "
+                                       << std::get<2>(key) << ", surface " << std::get<3>(key);
     }
     return compared;
 }
