@@ -51,10 +51,10 @@ glm::dvec3 tangentIn(const BindFrame& frame, const glm::dvec3& from) {
 }
 
 /// Blocks of points are packed as they are full, so that what a point has in double does not stay.
-class PointTable {
+class StencilTable {
 public:
-    PointTable(const CpuGroup& group, size_t pointCount, std::span<const float> tangents, bool derivatives,
-               uint64_t mostElements)
+    StencilTable(const CpuGroup& group, size_t pointCount, std::span<const float> tangents, bool derivatives,
+                 uint64_t mostElements)
         : group_(group), tangents_(tangents), derivatives_(derivatives), mostElements_(mostElements),
           blocks_((pointCount + shared::kPointBlock - 1) / shared::kPointBlock), words_(4 * blocks_) {}
 
@@ -238,7 +238,7 @@ Result<std::shared_ptr<const CpuGroup>> surfacesOf(std::shared_ptr<const Prepare
 
 Result<std::vector<uint32_t>> pointTable(const CpuGroup& group, std::span<const SuppleSurfacePoint> points,
                                          std::span<const float> tangents, bool derivatives, uint64_t mostElements) {
-    PointTable table(group, points.size(), tangents, derivatives, mostElements);
+    StencilTable table(group, points.size(), tangents, derivatives, mostElements);
     for (const SuppleSurfacePoint& point : points) {
         if (Status added = table.add(point); !added) {
             return added.error();
