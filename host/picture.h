@@ -22,8 +22,8 @@ struct Picture {
     [[nodiscard]] const uint8_t* pixel(uint32_t x, uint32_t y) const { return &rgba[(size_t{y} * width + x) * 4]; }
     /// Copies `other` so that its corner comes to (x, y); what does not fit is left out.
     void paste(const Picture& other, uint32_t x, uint32_t y);
-    /// Writes a line of UTF-8 with its upper left corner at (x, y); a letter is about 6 by 10 pixels times `scale`. ? stands
-    /// for what no font of the system has.
+    /// Writes a line of UTF-8 with its upper left corner at (x, y); a letter is about 6 by 10 pixels times `scale`. ?
+    /// stands for what no font of the system has.
     void drawText(uint32_t x, uint32_t y, const std::string& text, uint32_t scale, const uint8_t (&color)[3]);
 };
 

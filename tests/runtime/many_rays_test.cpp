@@ -1,6 +1,7 @@
 // Queries of many rays: trees over pieces, and that rays meet through them, to the bit, what few rays meet without.
 #include "runtime/api/entry.h"
 #include "shaders/shared/queries.h"
+#include "tests/support/bent_tube.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/limited_device.h"
@@ -18,14 +19,6 @@
 
 namespace supple::test {
 namespace {
-
-cage::Character swayingTube() {
-    cage::Character tube = riggedTube({.segments = 5, .sides = 7});
-    const glm::quat turn = glm::angleAxis(0.9f, glm::vec3(0, 0, 1));
-    tube.clips.push_back(
-        clipOf({channel(2, cage::ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, turn.x, turn.y, turn.z, turn.w})}));
-    return tube;
-}
 
 SuppleGroupDesc crowdDesc(SuppleAsset asset, SuppleScheme scheme, uint32_t capacity) {
     SuppleGroupDesc desc{};
@@ -140,7 +133,7 @@ class ManyRays : public CrowdContexts {
 TEST_F(ManyRays, MeetWhatFewDo) {
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
-        const SuppleAsset asset = own.createAsset(swayingTube());
+        const SuppleAsset asset = own.createAsset(bentTube());
         for (const SuppleScheme scheme :
              {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_CAGE}) {
             SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
@@ -195,7 +188,7 @@ TEST_F(ManyRays, MeetACharacter) {
 /// it needs no trees.
 TEST_F(ManyRays, MeetAnAssetThatIsReloaded) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
-    cage::Character tube = swayingTube();
+    cage::Character tube = bentTube();
     const SuppleAsset asset = own.createAsset(tube);
     Crowd crowd(own, crowdDesc(asset, SUPPLE_SCHEME_CATMULL_CLARK, 2));
     crowd.pose(crowd.spawn(), 0, 0.3, glm::mat4(1.0f));
@@ -220,7 +213,7 @@ TEST_F(ManyRays, GoThroughTreesInTurn) {
         LimitedDevice limited(mapping, [](WrappedVulkan& says) { says.maxStorageBufferRange = 1u << 14; });
         ASSERT_NE(limited.context(), nullptr);
         CrowdContext& own = *limited.context();
-        SuppleGroupDesc desc = crowdDesc(own.createAsset(swayingTube()), SUPPLE_SCHEME_CAGE, 50);
+        SuppleGroupDesc desc = crowdDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_CAGE, 50);
         desc.flags = SUPPLE_GROUP_WINDOWS;
         Crowd crowd(own, desc);
         ASSERT_TRUE(crowd.valid());
@@ -246,7 +239,7 @@ TEST_F(ManyRays, TreesHoldTheirLeaves) {
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        Crowd crowd(own, crowdDesc(own.createAsset(swayingTube()), SUPPLE_SCHEME_LOOP, 2));
+        Crowd crowd(own, crowdDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_LOOP, 2));
         for (int k = 0; k < 2; ++k) {
             crowd.pose(crowd.spawn(), 0, 0.4 * k,
                        glm::translate(glm::mat4(1.0f), {12.0f * static_cast<float>(k), 0.0f, 0.0f}));
@@ -285,7 +278,7 @@ TEST_F(ManyRays, MissWhatIsNotFinite) {
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        const cage::Character tube = swayingTube();
+        const cage::Character tube = bentTube();
         SuppleGroupDesc desc = crowdDesc(own.createAsset(tube), SUPPLE_SCHEME_CATMULL_CLARK, 2);
         desc.poseSource = SUPPLE_POSES_CAGE_BUFFER;
         Crowd crowd(own, desc);
@@ -319,7 +312,7 @@ TEST_F(ManyRays, MissWhatIsNotFinite) {
 /// The pass queries has a time, and its memory counts.
 TEST_F(ManyRays, AreTimedAndTakeMemory) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
-    Crowd crowd(own, crowdDesc(own.createAsset(swayingTube()), SUPPLE_SCHEME_PM, 3));
+    Crowd crowd(own, crowdDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PM, 3));
     crowd.pose(crowd.spawn(), 0, 0.0, glm::mat4(1.0f));
     const std::vector<SuppleRay> rays = raysAround(1, 1.0f, 3.0f, 40);
     const auto scratch = [&] {

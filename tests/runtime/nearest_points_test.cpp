@@ -1,4 +1,5 @@
 // Nearest points on the device, beside dense samples and the searches on the CPU; instances, frames, recordings.
+#include "tests/support/bent_tube.h"
 #include "tests/support/crowd.h"
 #include "tests/support/dense_triangles.h"
 #include "tests/support/gpu_comparison.h"
@@ -24,15 +25,6 @@ namespace supple::test {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity(), kNoNumber = std::numeric_limits<float>::quiet_NaN();
-
-cage::Character nearTube() {
-    cage::Character tube = riggedTube({.segments = 5, .sides = 7});
-    tube.name = "tube";
-    const glm::quat turn = glm::angleAxis(0.9f, glm::vec3(0, 0, 1));
-    tube.clips.push_back(
-        clipOf({channel(2, cage::ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, turn.x, turn.y, turn.z, turn.w})}));
-    return tube;
-}
 
 SuppleGroupDesc nearGroup(SuppleAsset asset, SuppleScheme scheme, uint32_t capacity = 3) {
     SuppleGroupDesc desc{};
@@ -221,7 +213,7 @@ TEST_F(NearestPoints, AreAsNearAsDenseSamples) {
                 continue;
             }
             SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
-            askForNearest(context(mapping), nearTube(), scheme, 200, truth, own);
+            askForNearest(context(mapping), bentTube(), scheme, 200, truth, own);
         }
         print(scheme, own);
         EXPECT_LE(own.off, 2e-5);
@@ -313,7 +305,7 @@ TEST_F(NearestPoints, BadPlacesHaveNone) {
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        Crowd crowd(own, nearGroup(own.createAsset(nearTube()), SUPPLE_SCHEME_PM));
+        Crowd crowd(own, nearGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_PM));
         NearestPool pool(own, {crowd.group()}, 64);
         (void)crowd.spawn();
         std::vector<SupplePlace> good, mixed;
@@ -379,7 +371,7 @@ TEST_F(NearestPoints, TakePlacesOfTheDevice) {
 TEST_F(NearestPoints, AreRecorded) {
     using runtime::kCallNumber;
     namespace calls = runtime::calls;
-    const cage::Character tube = nearTube();
+    const cage::Character tube = bentTube();
     for (const bool isLate : {false, true}) {
         CrowdContext own(*testDevice(), SUPPLE_MAPPING_AUTO, 2, isLate ? SUPPLE_CONTEXT_RECORDABLE : 0);
         Recorded recorded;

@@ -1,5 +1,6 @@
 // Queries on the device: what rays meet, beside dense triangles and the searches on the CPU; batches, frames, mistakes.
 #include "runtime/queries/query_pieces.h"
+#include "tests/support/bent_tube.h"
 #include "tests/support/crowd.h"
 #include "tests/support/dense_triangles.h"
 #include "tests/support/gpu_comparison.h"
@@ -28,15 +29,6 @@ namespace supple::test {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
-
-cage::Character bendingTube(uint32_t sides = 7) {
-    cage::Character tube = riggedTube({.segments = 5, .sides = sides});
-    tube.name = "tube";
-    const glm::quat turn = glm::angleAxis(0.9f, glm::vec3(0, 0, 1));
-    tube.clips.push_back(
-        clipOf({channel(2, cage::ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, turn.x, turn.y, turn.z, turn.w})}));
-    return tube;
-}
 
 SuppleRay rayOf(const glm::vec3& origin, const glm::vec3& direction, float tMin = 0.0f, float tMax = kInfinity) {
     return {{origin.x, origin.y, origin.z}, tMin, {direction.x, direction.y, direction.z}, tMax};
@@ -253,7 +245,7 @@ TEST_F(Queries, RaysMeetWhatDenseTrianglesDo) {
         for (const SuppleMapping mapping : kMappings) {
             SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
             Figures own;
-            compareCharacter(context(mapping), bendingTube(), scheme, 200, truth, own);
+            compareCharacter(context(mapping), bentTube(), scheme, 200, truth, own);
             print(scheme, mapping, own);
             all.wrong += own.wrong;
             all.differ += own.differ;
@@ -319,7 +311,7 @@ TEST_F(Queries, SayWhichInstanceOfWhichGroupIsMet) {
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        const SuppleAsset asset = own.createAsset(bendingTube());
+        const SuppleAsset asset = own.createAsset(bentTube());
         Crowd near(own, groupDesc(asset, SUPPLE_SCHEME_CATMULL_CLARK, 4)),
             far(own, groupDesc(asset, SUPPLE_SCHEME_PM, 4));
         Pool pool(own, {far.group(), near.group()}, 8);
@@ -373,7 +365,7 @@ TEST_F(Queries, BadRaysMeetNothing) {
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        Crowd crowd(own, groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_PREP));
+        Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PREP));
         Pool pool(own, {crowd.group()}, 64);
         poseInRow(crowd, {crowd.spawn(), crowd.spawn()});
         const std::vector<SuppleRay> good = rows(2);
@@ -400,7 +392,7 @@ TEST_F(Queries, BadRaysMeetNothing) {
 /// Rays of the device are those of the host; and hits come frames later.
 TEST_F(Queries, TakeRaysOfTheDeviceAndAreReadFramesLater) {
     CrowdContext own(*testDevice(), SUPPLE_MAPPING_AUTO, 3);
-    Crowd crowd(own, groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_PM));
+    Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PM));
     Pool pool(own, {crowd.group()}, 40);
     poseInRow(crowd, {crowd.spawn(), crowd.spawn(), crowd.spawn()});
     std::vector<SuppleRay> rays;
@@ -469,9 +461,9 @@ TEST_F(Queries, TakeRaysOfTheDeviceAndAreReadFramesLater) {
 /// What the host makes anew or destroys.
 TEST_F(Queries, FollowTheirGroups) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
-    const SuppleAsset asset = own.createAsset(bendingTube());
+    const SuppleAsset asset = own.createAsset(bentTube());
     auto first = std::make_unique<Crowd>(own, groupDesc(asset, SUPPLE_SCHEME_PM, 2));
-    Crowd second(own, groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_CATMULL_CLARK, 2));
+    Crowd second(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_CATMULL_CLARK, 2));
     Pool pool(own, {first->group(), second.group()}, 8);
     std::vector<SuppleInstance> instances{first->spawn(), first->spawn()};
     poseInRow(*first, instances);
@@ -484,7 +476,7 @@ TEST_F(Queries, FollowTheirGroups) {
     std::vector<SuppleHit> hits = pool.run(rows(3));
     EXPECT_TRUE(haveSameBits({hits[0], hits[1]}, {before[0], before[1]}));
     EXPECT_EQ(hits[2].slot, 2u);
-    ASSERT_EQ(own.reloadAsset(asset, bendingTube(6)), SUPPLE_OK);
+    ASSERT_EQ(own.reloadAsset(asset, bentTube(6)), SUPPLE_OK);
     hits = pool.run(rows(3));
     for (uint32_t k = 0; k < 3; ++k) {
         EXPECT_EQ(hits[k].slot, k);
@@ -516,7 +508,7 @@ TEST_F(Queries, MeetGroupsOfViews) {
     };
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
-        SuppleGroupDesc desc = groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_PM, 2);
+        SuppleGroupDesc desc = groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PM, 2);
         Crowd atRate(own, desc);
         Pool ofRate(own, {atRate.group()}, 2);
         poseBoth(atRate);
@@ -552,7 +544,7 @@ TEST_F(Queries, MeetGroupsOfViews) {
 /// What a pose mirrors has its normals outside.
 TEST_F(Queries, MeetMirroredInstances) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
-    Crowd crowd(own, groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_CATMULL_CLARK));
+    Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_CATMULL_CLARK));
     Pool pool(own, {crowd.group()}, 4);
     crowd.pose(crowd.spawn(), 0, 0.4, glm::scale(glm::mat4(1.0f), {1.0f, 1.0f, -1.0f}));
     const SuppleHit hit = pool.run({rayOf({0.9f, 0.1f, 9.0f}, {0.0f, 0.0f, -1.0f})})[0];
@@ -637,7 +629,7 @@ SuppleTriangleHit traced(const std::vector<DrawnTriangle>& triangles, const Test
 
 /// What drawn triangles say is met becomes the points of the surface that rays meet themselves.
 TEST_F(Queries, RefineHitsOfTriangles) {
-    const cage::Character tube = bendingTube();
+    const cage::Character tube = bentTube();
     struct Case {
         SuppleScheme scheme;
         uint32_t flags;
@@ -735,7 +727,7 @@ TEST_F(Queries, RefineHitsOfSurfacesAtOtherRates) {
 /// Triangles that there are not are nothing that is met.
 TEST_F(Queries, RefineNothingOfTrianglesThatAreNone) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
-    Crowd crowd(own, groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_PM));
+    Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PM));
     Pool pool(own, {crowd.group()}, 16);
     poseInRow(crowd, {crowd.spawn()});
     const SuppleRay ray = rows(1)[0];
@@ -762,7 +754,7 @@ TEST_F(Queries, RefineNothingOfTrianglesThatAreNone) {
 TEST_F(Queries, WaitForUploads) {
     CrowdContext own(*testDevice());
     ASSERT_EQ(suppleSetUploadBudget(own.handle(), 4096), SUPPLE_OK);
-    Crowd crowd(own, groupDesc(own.createAsset(bendingTube()), SUPPLE_SCHEME_CATMULL_CLARK));
+    Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_CATMULL_CLARK));
     poseInRow(crowd, {crowd.spawn()});
     const auto state = [&] {
         SuppleUploadState state{};

@@ -1,4 +1,5 @@
 // Points of surfaces on the device: where they are, how they are turned, where they were; groups that are made anew.
+#include "tests/support/bent_tube.h"
 #include "tests/support/cpu_group.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
@@ -24,16 +25,6 @@
 
 namespace supple::test {
 namespace {
-
-/// A tube with a clip that bends it.
-cage::Character bentTube(uint32_t sides = 7) {
-    cage::Character tube = riggedTube({.segments = 5, .sides = sides});
-    tube.name = "tube";
-    const glm::quat turn = glm::angleAxis(0.9f, glm::vec3(0, 0, 1));
-    tube.clips.push_back(
-        clipOf({channel(2, cage::ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, turn.x, turn.y, turn.z, turn.w})}));
-    return tube;
-}
 
 /// Anywhere in all faces, on edges and corners too.
 std::vector<SuppleSurfacePoint> pointsOf(const cage::Cage& cage, uint32_t perFace) {

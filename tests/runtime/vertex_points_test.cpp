@@ -1,4 +1,5 @@
 // Points that lie on surface vertices have their positions, to the bit (SUPPLE_POINT_SET_ON_VERTICES).
+#include "tests/support/bent_tube.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
 #include "tests/support/meshes.h"
@@ -112,15 +113,6 @@ glm::mat4 vertexPlace(uint32_t frame) {
                        glm::vec3(0.3f, 1.0f, 0.2f));
 }
 
-cage::Character bentVertexTube() {
-    cage::Character tube = riggedTube({.segments = 5, .sides = 7});
-    tube.name = "tube";
-    const glm::quat turn = glm::angleAxis(0.9f, glm::vec3(0, 0, 1));
-    tube.clips.push_back(
-        clipOf({channel(2, cage::ChannelPath::rotation, {0, 1}, {0, 0, 0, 1, turn.x, turn.y, turn.z, turn.w})}));
-    return tube;
-}
-
 class VertexPoints : public CrowdContexts {
     const ValidationGuard guard_;
 };
@@ -191,7 +183,7 @@ TEST_F(VertexPoints, HaveTheBitsOfVerticesOfQuads) {
 
 /// Triangles, pentagons and hexagons, which schemes cut in their own ways.
 TEST_F(VertexPoints, HaveTheBitsOfVerticesOfAllPatches) {
-    const cage::Cage cages[] = {bentVertexTube().cage, dodecahedron(), prism(6)};
+    const cage::Cage cages[] = {bentTube().cage, dodecahedron(), prism(6)};
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
         for (const cage::Cage& cage : cages) {
@@ -220,7 +212,7 @@ TEST_F(VertexPoints, HaveTheBitsOfVerticesOfAllPatches) {
 
 /// All formats; where points were; another capacity, another version of the asset.
 TEST_F(VertexPoints, FollowTheirGroup) {
-    const cage::Character tube = bentVertexTube();
+    const cage::Character tube = bentTube();
     const std::vector<SuppleSurfacePoint> points = latticeOf(tube.cage, 4, 4);
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
@@ -267,7 +259,7 @@ TEST_F(VertexPoints, FollowTheirGroup) {
 
 /// A device that binds few bytes at a time, groups that share dispatches, and groups that give back their memory.
 TEST_F(VertexPoints, HaveTheSameBitsHoweverTheGroupIsKept) {
-    const cage::Character tube = bentVertexTube();
+    const cage::Character tube = bentTube();
     const std::vector<SuppleSurfacePoint> points = latticeOf(tube.cage, 2, 2);
     WrappedVulkan& wrapped = wrappedVulkan();
     const std::unique_ptr<host::Device> device = deviceThrough(&wrappedGetInstanceProcAddr);
@@ -320,7 +312,7 @@ TEST_F(VertexPoints, HaveTheSameBitsHoweverTheGroupIsKept) {
 
 TEST_F(VertexPoints, NeedVerticesAtARate) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
-    const SuppleAsset asset = own.createAsset(bentVertexTube());
+    const SuppleAsset asset = own.createAsset(bentTube());
     const SuppleSurfacePoint point{0, 0, 0.5f, 0.25f};
     SupplePointSetDesc desc{};
     desc.structSize = sizeof(desc);
