@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
-#include <memory>
+#include <string_view>
+#include <utility>
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push

@@ -2,7 +2,9 @@
 
 #include <fontconfig/fontconfig.h>
 #include <memory>
-#include <type_traits>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace supple::host {
 namespace {

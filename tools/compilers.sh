@@ -133,7 +133,7 @@ msvc_rules() {
     return $refused
 }
 
-# build_one NAME LOG, test_one NAME LOG, same_words NAME LOG
+# build_one NAME, test_one NAME, same_words NAME
 build_one() {
     local targets=(tests/cpu/supple_cpu_words)
     if [ "$1" = libcxx ]; then
