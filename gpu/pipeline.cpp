@@ -15,8 +15,8 @@ Result<ComputeLayout> ComputeLayout::create(const Device& device, std::span<cons
     std::copy_if(bindings.begin(), bindings.end(), std::back_inserter(layout.bindings),
                  [&](const Binding& binding) { return binding.isIn(device.mapping.wide); });
     const auto countOf = [&](VkDescriptorType type) {
-        return std::count_if(layout.bindings.begin(), layout.bindings.end(),
-                             [&](const Binding& binding) { return binding.type == type; });
+        return static_cast<uint64_t>(std::count_if(layout.bindings.begin(), layout.bindings.end(),
+                                                   [&](const Binding& binding) { return binding.type == type; }));
     };
     if (countOf(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) > kMaxStorageBuffers ||
         countOf(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) > kMaxTexelBuffers) {

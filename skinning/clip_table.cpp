@@ -177,8 +177,8 @@ private:
     /// Elements of a packed clip as they are; where they now begin.
     uint32_t putElements(std::span<const uint32_t> words, uint32_t first, uint32_t end) {
         const uint32_t begin = next();
-        table_.words.insert(table_.words.end(), words.begin() + 4 * ptrdiff_t{first},
-                            words.begin() + 4 * ptrdiff_t{end});
+        const std::span<const uint32_t> own = words.subspan(size_t{4} * first, size_t{4} * (end - first));
+        table_.words.insert(table_.words.end(), own.begin(), own.end());
         return begin;
     }
     void putRows(const glm::mat4& matrix) {

@@ -141,7 +141,7 @@ private:
     }
     /// A number that means something in the present version of the group's asset.
     [[nodiscard]] uint64_t numberOf(SuppleGroup group, uint32_t number) {
-        return assets_[groups_[group.id].asset].size() << 32u | number;
+        return uint64_t{assets_[groups_[group.id].asset].size()} << 32u | number;
     }
     [[nodiscard]] uint64_t numberOf(const SuppleInstance& instance, uint32_t number) {
         return numberOf(instance.group, number);
