@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace supple::skinning {
@@ -80,7 +81,8 @@ Passes passesOf(const cage::Clip& clip, double marker, const MarkerInterval& int
 uint64_t markersBetween(const cage::Clip& clip, const MarkerInterval& interval, std::span<PassedMarker> out) {
     const auto markers = static_cast<uint32_t>(clip.markers.size());
     std::vector<Passes> passes(markers);
-    Passes all{INFINITY, -INFINITY};
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    Passes all{kInfinity, -kInfinity};
     double total = 0.0;
     for (uint32_t m = 0; m < markers; ++m) {
         passes[m] = passesOf(clip, clip.markers[m].time, interval);

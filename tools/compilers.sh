@@ -120,7 +120,8 @@ msvc_rules() {
     mkdir -p "$work/msvc-rules"
     clang++ -std=c++20 -dM -E -x c++ /dev/null | grep GCC_ATOMIC >"$work/msvc-rules/atomics.h"
     local flags=(-std=c++20 -fsyntax-only -fms-compatibility -fms-compatibility-version=19.29 -fgnuc-version=0 -D__STRICT_ANSI__
-        -include "$work/msvc-rules/atomics.h" -pedantic-errors -Wgnu -Wmicrosoft -Werror -Wno-missing-field-initializers
+        -include "$work/msvc-rules/atomics.h" -DXXH_VECTOR=0 # no intrinsics of another compiler
+        -pedantic-errors -Wgnu -Wmicrosoft -Werror -Wno-missing-field-initializers
         -I. -Iruntime/include -I"$build/generated")
     local folder unit refused=0
     for folder in $(git ls-files 'base/*.cpp' 'cage/*.cpp' 'skinning/*.cpp' 'surface/*.cpp' 'gpu/*.cpp' 'cpu/*.cpp' 'runtime/*.cpp' |
