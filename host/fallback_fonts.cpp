@@ -6,16 +6,18 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
+#include <utility>
 
 namespace supple::host {
 namespace {
 
+/// Empty if the file cannot be read.
 std::vector<std::byte> bytesOf(const std::string& path) {
-    std::ifstream stream(utf8Path(path), std::ios::binary);
-    std::vector<char> read{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    const auto* const begin = reinterpret_cast<const std::byte*>(read.data());
-    return {begin, begin + read.size()};
+    std::ifstream stream(utf8Path(path), std::ios::binary | std::ios::ate);
+    std::vector<std::byte> bytes(stream ? static_cast<size_t>(stream.tellg()) : 0);
+    stream.seekg(0);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    return stream ? std::move(bytes) : std::vector<std::byte>();
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "host/material_uniforms.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <span>
@@ -47,20 +48,37 @@ SuppleMaterialInfo whiteClay() {
     return info;
 }
 
+/// What files call the textures of layers, from shared::kClearcoat on.
+constexpr std::array kLayerTextureNames = {"clearcoatTexture",
+                                           "clearcoatRoughnessTexture",
+                                           "clearcoatNormalTexture",
+                                           "sheenColorTexture",
+                                           "sheenRoughnessTexture",
+                                           "transmissionTexture",
+                                           "anisotropyTexture",
+                                           "diffuseTransmissionColorTexture",
+                                           "specularTexture",
+                                           "specularColorTexture",
+                                           "iridescenceTexture",
+                                           "iridescenceThicknessTexture",
+                                           "diffuseTransmissionTexture",
+                                           "thicknessTexture"};
+static_assert(kLayerTextureNames.size() == shared::kTextureCount - shared::kClearcoat);
+
 /// A material may have more textures of layers than shaders look up.
 void leaveOutTooMany(const std::string& path, SuppleMaterialInfo& info, SuppleMaterialLayers& layers) {
     const LayerSlots slots = layerSlots(info, layers);
     const auto textures = texturesOf(info, layers);
-    uint32_t left = 0;
+    std::string left;
     for (uint32_t which = shared::kClearcoat; which < textures.size(); ++which) {
         if (textures[which]->image == SUPPLE_NO_IMAGE || layerSlotOf(slots, which) != shared::kNoLayerSlot)
             continue;
         textures[which]->image = SUPPLE_NO_IMAGE;
-        ++left;
+        left.append(left.empty() ? "" : ", ").append(kLayerTextureNames[which - shared::kClearcoat]);
     }
-    if (left > 0)
-        std::fprintf(stderr, "warning: %s: material %s: %u textures of its layers left out: %u are drawn\n",
-                     path.c_str(), info.name, left, shared::kLayerTextureCount);
+    if (!left.empty())
+        std::fprintf(stderr, "warning: %s: material %s: %s: left out, as %u textures of layers are drawn\n",
+                     path.c_str(), info.name, left.c_str(), shared::kLayerTextureCount);
 }
 
 } // namespace

@@ -8,6 +8,9 @@ namespace supple::host {
 
 namespace {
 
+using shared::kClearcoat;
+using shared::kLayerSlotsPerWord;
+
 shared::TexturePlace placeOf(const SuppleTextureInfo& texture, bool uv1) {
     const float c = std::cos(texture.rotation);
     const float s = std::sin(texture.rotation);
@@ -41,6 +44,12 @@ glm::vec4 extinctionOf(const SuppleMaterialLayers& layers) {
     for (int channel = 0; channel < 3 && layers.attenuationDistance > 0.0f; ++channel)
         lost[channel] = -std::log(std::max(layers.attenuationColor[channel], kBlack)) / layers.attenuationDistance;
     return lost;
+}
+
+/// The word that has a texture's place.
+template <class Slots>
+auto& wordOf(Slots& slots, uint32_t texture) {
+    return slots[(texture - kClearcoat) / kLayerSlotsPerWord];
 }
 
 bool hasSheen(const SuppleMaterialLayers& layers) {
@@ -95,16 +104,13 @@ LayerSlots layerSlots(const SuppleMaterialInfo& material, const SuppleMaterialLa
     for (uint32_t i = shared::kClearcoat; i < textures.size() && next < shared::kLayerTextureCount; ++i) {
         if (textures[i]->image == SUPPLE_NO_IMAGE)
             continue;
-        const uint32_t place = i - shared::kClearcoat;
-        const uint32_t shift = 4 * (place % shared::kLayerSlotsPerWord);
-        slots[place / shared::kLayerSlotsPerWord] ^= (shared::kNoLayerSlot ^ next++) << shift;
+        wordOf(slots, i) ^= (shared::kNoLayerSlot ^ next++) << SUPPLE_LAYER_SLOT_SHIFT(i);
     }
     return slots;
 }
 
 uint32_t layerSlotOf(const LayerSlots& slots, uint32_t texture) {
-    const uint32_t place = texture - shared::kClearcoat;
-    return slots[place / shared::kLayerSlotsPerWord] >> (4 * (place % shared::kLayerSlotsPerWord)) & 15u;
+    return SUPPLE_LAYER_SLOT(wordOf(slots, texture), texture);
 }
 
 shared::MaterialUniforms materialUniforms(const SuppleMaterialInfo& material, const SuppleMaterialLayers& layers,

@@ -78,6 +78,8 @@ SUPPLE_HOST_CONST kTextureCount = 20u;
 SUPPLE_HOST_CONST kLayerSlotsPerWord = 8u;
 SUPPLE_HOST_CONST kNoLayerSlot = 8u; // it has none
 SUPPLE_HOST_CONST kNoLayerSlots = 0x88888888u;
+#define SUPPLE_LAYER_SLOT_SHIFT(texture) (4u * (((texture)-kClearcoat) % kLayerSlotsPerWord))
+#define SUPPLE_LAYER_SLOT(word, texture) (((word) >> SUPPLE_LAYER_SLOT_SHIFT(texture)) & 15u)
 
 // The map of the studio (host/environment.h).
 SUPPLE_HOST_CONST kEnvironmentSize = 256u;

@@ -6,20 +6,20 @@ layout(set = 2, binding = kLayerTextureBinding) uniform sampler2D layerTextures[
 // Where each of a layer's textures is in the array: constants, so that no device has to index it by what it computes.
 layout(constant_id = 5) const uint kLayerSlots0 = kNoLayerSlots;
 layout(constant_id = 6) const uint kLayerSlots1 = kNoLayerSlots;
-const uint kClearcoatSlot = kLayerSlots0 & 15u;
-const uint kClearcoatRoughnessSlot = (kLayerSlots0 >> 4u) & 15u;
-const uint kClearcoatNormalSlot = (kLayerSlots0 >> 8u) & 15u;
-const uint kSheenColorSlot = (kLayerSlots0 >> 12u) & 15u;
-const uint kSheenRoughnessSlot = (kLayerSlots0 >> 16u) & 15u;
-const uint kTransmissionSlot = (kLayerSlots0 >> 20u) & 15u;
-const uint kAnisotropySlot = (kLayerSlots0 >> 24u) & 15u;
-const uint kDiffuseTransmissionColorSlot = (kLayerSlots0 >> 28u) & 15u;
-const uint kSpecularSlot = kLayerSlots1 & 15u;
-const uint kSpecularColorSlot = (kLayerSlots1 >> 4u) & 15u;
-const uint kIridescenceSlot = (kLayerSlots1 >> 8u) & 15u;
-const uint kIridescenceThicknessSlot = (kLayerSlots1 >> 12u) & 15u;
-const uint kDiffuseTransmissionSlot = (kLayerSlots1 >> 16u) & 15u;
-const uint kThicknessSlot = (kLayerSlots1 >> 20u) & 15u;
+const uint kClearcoatSlot = SUPPLE_LAYER_SLOT(kLayerSlots0, kClearcoat);
+const uint kClearcoatRoughnessSlot = SUPPLE_LAYER_SLOT(kLayerSlots0, kClearcoatRoughness);
+const uint kClearcoatNormalSlot = SUPPLE_LAYER_SLOT(kLayerSlots0, kClearcoatNormal);
+const uint kSheenColorSlot = SUPPLE_LAYER_SLOT(kLayerSlots0, kSheenColor);
+const uint kSheenRoughnessSlot = SUPPLE_LAYER_SLOT(kLayerSlots0, kSheenRoughness);
+const uint kTransmissionSlot = SUPPLE_LAYER_SLOT(kLayerSlots0, kTransmission);
+const uint kAnisotropySlot = SUPPLE_LAYER_SLOT(kLayerSlots0, kAnisotropy);
+const uint kDiffuseTransmissionColorSlot = SUPPLE_LAYER_SLOT(kLayerSlots0, kDiffuseTransmissionColor);
+const uint kSpecularSlot = SUPPLE_LAYER_SLOT(kLayerSlots1, kSpecular);
+const uint kSpecularColorSlot = SUPPLE_LAYER_SLOT(kLayerSlots1, kSpecularColor);
+const uint kIridescenceSlot = SUPPLE_LAYER_SLOT(kLayerSlots1, kIridescence);
+const uint kIridescenceThicknessSlot = SUPPLE_LAYER_SLOT(kLayerSlots1, kIridescenceThickness);
+const uint kDiffuseTransmissionSlot = SUPPLE_LAYER_SLOT(kLayerSlots1, kDiffuseTransmission);
+const uint kThicknessSlot = SUPPLE_LAYER_SLOT(kLayerSlots1, kThickness);
 
 /// A texel, or white where the material has no such texture. It may stand in a branch: which one is taken is a constant.
 #define LAYER_TEXEL(name, uvs)                                                                                         \

@@ -11,7 +11,8 @@ namespace {
 
 /// Two nodes a piece, of two elements.
 constexpr VkDeviceSize kTreeBytesPerPiece = VkDeviceSize{4} * gpu::kVec4Bytes;
-/// Of trees that are there at a time, unless one alone is larger: all of a crowd would be hundreds of megabytes.
+/// Trees that are there at a time take no more, unless one alone is larger: all of a crowd would be hundreds of
+/// megabytes.
 constexpr VkDeviceSize kMostTreeBytes = VkDeviceSize{64} << 20;
 
 } // namespace

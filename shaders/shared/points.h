@@ -59,7 +59,7 @@ struct PointPush {
     float pastX, pastY, pastZ; // how far the origin of the coordinates has moved since the frame before
 };
 
-// Of points on surface vertices. What has the same name is as above.
+// For points on surface vertices. What has the same name is as above.
 struct VertexPointPush {
     uint pointCount;
     uint firstInstance;

@@ -160,7 +160,7 @@ private:
                 isByFan.assign(isByFan.size(), 0);
             }
             nets_ = nets;
-            (void)chains_.findNets();
+            chains_.findNets();
             numberLevelOnePoints(isByFan);
         }
     }

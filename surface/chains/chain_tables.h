@@ -36,7 +36,7 @@ public:
     /// Refuses a vertex with more faces than 16 bits number the points of its chain.
     [[nodiscard]] Status checkSizes() const;
     /// The points of level 1 that chains and limits are made of, as the mesh numbers them.
-    [[nodiscard]] std::span<const uint32_t> findNets();
+    std::span<const uint32_t> findNets();
     /// Numbers them. Behind findNets().
     void numberNets(NeededRows& levelOne);
     /// Takes pool indices from `next` on, and returns the first that is free.

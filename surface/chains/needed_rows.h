@@ -36,7 +36,7 @@ public:
     /// By number.
     [[nodiscard]] const std::vector<uint32_t>& rows() const { return rows_; }
     [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(rows_.size()); }
-    /// Of a group whose rows are needed.
+    /// For a group whose rows are needed.
     [[nodiscard]] uint32_t firstOfGroup(uint32_t group) const { return groupFirsts_[group]; }
     /// The numbers that no group has, rising.
     [[nodiscard]] const std::vector<uint32_t>& alone() const { return alone_; }

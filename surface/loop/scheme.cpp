@@ -104,7 +104,7 @@ private:
                 levelOne_.needNet(nets_.emplace_back(triangles_.netOf(patches[p].facet, firstOf(patches[p]))));
             }
         }
-        (void)chains_.findNets();
+        chains_.findNets();
         chains_.numberNets(levelOne_);
     }
 

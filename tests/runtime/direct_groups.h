@@ -188,6 +188,20 @@ struct Pair {
     Crowd stored, direct;
 };
 
+/// The groups of a subject at the largest rate of the tests, in the bind pose.
+inline Pair pairOf(CrowdContext& own, const Subject& subject) {
+    SupplePrepOptions prep{};
+    prep.structSize = sizeof prep;
+    prep.cornerRule = subject.corners;
+    SuppleGroupDesc desc{};
+    desc.asset = own.createAsset(subject.cage);
+    desc.capacity = 2;
+    desc.scheme = subject.scheme;
+    desc.rate = 16;
+    desc.prep = &prep;
+    return {own, desc, SUPPLE_BIND_POSE};
+}
+
 /// What the shaders of pictures are told: where they look, and what they draw.
 struct PictureWindow {
     float x = 0.0f, y = 0.8f, halfHeight = 1.3f, unused = 0.0f;

@@ -88,16 +88,7 @@ TEST_P(DirectBits, AreThoseOfStoredVertices) {
     uint32_t singular = 0, cornerNormals = 0;
     Compared compared;
     for (const Subject& subject : subjects()) {
-        SupplePrepOptions prep{};
-        prep.structSize = sizeof prep;
-        prep.cornerRule = subject.corners;
-        SuppleGroupDesc desc{};
-        desc.asset = own.createAsset(subject.cage);
-        desc.capacity = 2;
-        desc.scheme = subject.scheme;
-        desc.rate = 16;
-        desc.prep = &prep;
-        Pair pair(own, desc, SUPPLE_BIND_POSE);
+        Pair pair = pairOf(own, subject);
         ASSERT_TRUE(pair.valid()) << subject.name;
         for (const uint32_t rate : {16u, 8u, 5u, 3u, 2u, 1u}) {
             pair.setRate(rate);

@@ -1,6 +1,7 @@
 // Queries of many rays: trees over pieces, and that rays meet through them, to the bit, what few rays meet without.
 #include "runtime/api/entry.h"
 #include "shaders/shared/queries.h"
+#include "tests/support/asked_pool.h"
 #include "tests/support/bent_tube.h"
 #include "tests/support/crowd.h"
 #include "tests/support/gpu_comparison.h"
@@ -20,72 +21,20 @@
 namespace supple::test {
 namespace {
 
-SuppleGroupDesc crowdDesc(SuppleAsset asset, SuppleScheme scheme, uint32_t capacity) {
-    SuppleGroupDesc desc{};
-    desc.asset = asset;
-    desc.capacity = capacity;
-    desc.scheme = scheme;
-    desc.rate = 1;
-    return desc;
+/// What frames find that ask for few rays each.
+std::vector<SuppleHit> askFew(AskedPool& pool, std::span<const SuppleRay> rays) {
+    std::vector<SuppleHit> all;
+    for (size_t first = 0; first < rays.size(); first += shared::kRaysPerLane) {
+        const std::vector<SuppleHit> hits = pool.run(
+            AskedPool::descOf(rays.subspan(first, std::min<size_t>(shared::kRaysPerLane, rays.size() - first))));
+        all.insert(all.end(), hits.begin(), hits.end());
+    }
+    return all;
 }
-
-/// A pool for so many rays a frame, and frames that ask it.
-class RayPool {
-public:
-    RayPool(CrowdContext& context, std::vector<SuppleGroup> groups, size_t rayCount)
-        : context_(context), groups_(std::move(groups)) {
-        SuppleQueryPoolDesc desc{};
-        desc.structSize = sizeof(desc);
-        desc.groups = groups_.data();
-        desc.groupCount = static_cast<uint32_t>(groups_.size());
-        desc.rayCount = static_cast<uint32_t>(rayCount);
-        EXPECT_EQ(suppleCreateQueryPool(context.handle(), &desc, &pool_), SUPPLE_OK);
-    }
-    ~RayPool() { EXPECT_EQ(suppleDestroyQueryPool(context_.handle(), pool_), SUPPLE_OK); }
-    RayPool(const RayPool&) = delete;
-    RayPool& operator=(const RayPool&) = delete;
-
-    [[nodiscard]] SuppleQueryPool handle() const { return pool_; }
-    /// What a frame of all groups finds.
-    std::vector<SuppleHit> ask(std::span<const SuppleRay> rays) {
-        context_.beginFrame();
-        const Status submitted = context_.device().submitAndWait([&](VkCommandBuffer commands) {
-            EXPECT_EQ(context_.record(commands, groups_), SUPPLE_OK);
-            SuppleQueryDesc desc{};
-            desc.structSize = sizeof(desc);
-            desc.flags = SUPPLE_QUERY_READ_BACK;
-            desc.hostRays = rays.data();
-            desc.rayCount = static_cast<uint32_t>(rays.size());
-            desc.before = desc.after = kAnyUse;
-            EXPECT_EQ(suppleRecordQueries(context_.handle(), commands, pool_, &desc), SUPPLE_OK);
-        });
-        EXPECT_TRUE(submitted.ok());
-        context_.beginFrame();
-        std::vector<SuppleHit> hits(rays.size());
-        auto count = static_cast<uint32_t>(hits.size());
-        EXPECT_EQ(suppleReadHits(context_.handle(), pool_, hits.data(), &count, nullptr), SUPPLE_OK);
-        return hits;
-    }
-    /// What frames find that ask for few rays each.
-    std::vector<SuppleHit> askFew(std::span<const SuppleRay> rays) {
-        std::vector<SuppleHit> all;
-        for (size_t first = 0; first < rays.size(); first += shared::kRaysPerLane) {
-            const std::vector<SuppleHit> hits =
-                ask(rays.subspan(first, std::min<size_t>(shared::kRaysPerLane, rays.size() - first)));
-            all.insert(all.end(), hits.begin(), hits.end());
-        }
-        return all;
-    }
-    /// Of the first group.
-    [[nodiscard]] const runtime::QueryGroup& inside() const {
-        return *context_.handle()->context->queryPools.at(pool_.id)->members()[0].group;
-    }
-
-private:
-    CrowdContext& context_;
-    std::vector<SuppleGroup> groups_;
-    SuppleQueryPool pool_{};
-};
+/// What the pool has of its first group.
+const runtime::QueryGroup& inside(const CrowdContext& context, const AskedPool& pool) {
+    return *context.handle()->context->queryPools.at(pool.handle().id)->members()[0].group;
+}
 
 /// Rays from all sides at instances that stand in a row, many of which graze them, and some that are none.
 std::vector<SuppleRay> raysAround(uint32_t instances, float spacing, float size, uint32_t count) {
@@ -137,7 +86,7 @@ TEST_F(ManyRays, MeetWhatFewDo) {
         for (const SuppleScheme scheme :
              {SUPPLE_SCHEME_PM, SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP, SUPPLE_SCHEME_CAGE}) {
             SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
-            Crowd first(own, crowdDesc(asset, scheme, 5)), second(own, crowdDesc(asset, scheme, 4));
+            Crowd first(own, askedGroup(asset, scheme, 5, 1)), second(own, askedGroup(asset, scheme, 4, 1));
             for (Crowd* const crowd : {&first, &second}) {
                 for (int k = 0; k < 4; ++k) {
                     const float at = k == 3 ? 1.0f : static_cast<float>(k);
@@ -147,11 +96,11 @@ TEST_F(ManyRays, MeetWhatFewDo) {
                 }
             }
             const std::vector<SuppleRay> rays = raysAround(3, 12.0f, 3.0f, 96);
-            RayPool many(own, {second.group(), first.group()}, rays.size()),
+            AskedPool many(own, {second.group(), first.group()}, rays.size()),
                 few(own, {second.group(), first.group()}, shared::kRaysPerLane);
-            const std::vector<SuppleHit> wanted = few.askFew(rays);
-            expectSameHits(many.ask(rays), wanted);
-            expectSameHits(many.askFew(rays), wanted);
+            const std::vector<SuppleHit> wanted = askFew(few, rays);
+            expectSameHits(many.run(rays), wanted);
+            expectSameHits(askFew(many, rays), wanted);
             EXPECT_TRUE(std::any_of(wanted.begin(), wanted.end(), [](const SuppleHit& hit) { return hit.slot == 1; }));
             for (const SuppleHit& hit : wanted) {
                 EXPECT_TRUE(hit.group == SUPPLE_NO_HIT || (hit.group == 0 && hit.slot != 3)) << hit.group << hit.slot;
@@ -164,7 +113,7 @@ TEST_F(ManyRays, MeetACharacter) {
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        Crowd crowd(own, crowdDesc(own.createAsset(readCharacter(kPipQuads)), SUPPLE_SCHEME_PM, 3));
+        Crowd crowd(own, askedGroup(own.createAsset(readCharacter(kPipQuads)), SUPPLE_SCHEME_PM, 3, 1));
         for (int k = 0; k < 3; ++k) {
             crowd.pose(crowd.spawn(), 0, 0.3 * k,
                        glm::translate(glm::mat4(1.0f), {40.0f + 2.0f * static_cast<float>(k), 0.0f, 0.0f}));
@@ -174,13 +123,13 @@ TEST_F(ManyRays, MeetACharacter) {
             ray.origin[0] += 40.0f;
             ray.origin[1] += 0.8f;
         }
-        RayPool many(own, {crowd.group()}, rays.size()), few(own, {crowd.group()}, 1 + shared::kRaysPerLane / 2);
+        AskedPool many(own, {crowd.group()}, rays.size()), few(own, {crowd.group()}, 1 + shared::kRaysPerLane / 2);
         std::vector<SuppleHit> wanted;
         for (size_t k = 0; k < rays.size(); k += 5) {
-            const std::vector<SuppleHit> hits = few.ask(std::span(rays).subspan(k, 5));
+            const std::vector<SuppleHit> hits = few.run(AskedPool::descOf(std::span(rays).subspan(k, 5)));
             wanted.insert(wanted.end(), hits.begin(), hits.end());
         }
-        expectSameHits(many.ask(rays), wanted);
+        expectSameHits(many.run(rays), wanted);
     }
 }
 
@@ -190,19 +139,19 @@ TEST_F(ManyRays, MeetAnAssetThatIsReloaded) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
     cage::Character tube = bentTube();
     const SuppleAsset asset = own.createAsset(tube);
-    Crowd crowd(own, crowdDesc(asset, SUPPLE_SCHEME_CATMULL_CLARK, 2));
+    Crowd crowd(own, askedGroup(asset, SUPPLE_SCHEME_CATMULL_CLARK, 2, 1));
     crowd.pose(crowd.spawn(), 0, 0.3, glm::mat4(1.0f));
     const std::vector<SuppleRay> rays = raysAround(1, 1.0f, 3.0f, 100);
-    RayPool few(own, {crowd.group()}, shared::kRaysPerLane), many(own, {crowd.group()}, rays.size()),
+    AskedPool few(own, {crowd.group()}, shared::kRaysPerLane), many(own, {crowd.group()}, rays.size()),
         last(own, {crowd.group()}, shared::kRaysPerLane);
-    const std::vector<SuppleHit> before = many.ask(rays);
+    const std::vector<SuppleHit> before = many.run(rays);
     for (glm::vec3& p : tube.cage.positions) {
         p.y *= 1.2f;
     }
     ASSERT_EQ(own.reloadAsset(asset, tube), SUPPLE_OK);
-    const std::vector<SuppleHit> hits = many.ask(rays);
-    expectSameHits(hits, few.askFew(rays));
-    expectSameHits(hits, last.askFew(rays));
+    const std::vector<SuppleHit> hits = many.run(rays);
+    expectSameHits(hits, askFew(few, rays));
+    expectSameHits(hits, askFew(last, rays));
     EXPECT_NE(std::memcmp(hits.data(), before.data(), hits.size() * sizeof(SuppleHit)), 0);
 }
 
@@ -213,7 +162,7 @@ TEST_F(ManyRays, GoThroughTreesInTurn) {
         LimitedDevice limited(mapping, [](WrappedVulkan& says) { says.maxStorageBufferRange = 1u << 14; });
         ASSERT_NE(limited.context(), nullptr);
         CrowdContext& own = *limited.context();
-        SuppleGroupDesc desc = crowdDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_CAGE, 50);
+        SuppleGroupDesc desc = askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_CAGE, 50, 1);
         desc.flags = SUPPLE_GROUP_WINDOWS;
         Crowd crowd(own, desc);
         ASSERT_TRUE(crowd.valid());
@@ -222,10 +171,10 @@ TEST_F(ManyRays, GoThroughTreesInTurn) {
                        glm::translate(glm::mat4(1.0f), {8.0f * static_cast<float>(k), 0.0f, 0.0f}));
         }
         const std::vector<SuppleRay> rays = raysAround(50, 8.0f, 2.5f, 80);
-        RayPool many(own, {crowd.group()}, rays.size()), few(own, {crowd.group()}, shared::kRaysPerLane);
-        EXPECT_GE(many.inside().turns(), 6u);
-        EXPECT_EQ(few.inside().tree(), nullptr);
-        expectSameHits(many.ask(rays), few.askFew(rays));
+        AskedPool many(own, {crowd.group()}, rays.size()), few(own, {crowd.group()}, shared::kRaysPerLane);
+        EXPECT_GE(inside(own, many).turns(), 6u);
+        EXPECT_EQ(inside(own, few).tree(), nullptr);
+        expectSameHits(many.run(rays), askFew(few, rays));
     }
 }
 
@@ -239,17 +188,17 @@ TEST_F(ManyRays, TreesHoldTheirLeaves) {
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        Crowd crowd(own, crowdDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_LOOP, 2));
+        Crowd crowd(own, askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_LOOP, 2, 1));
         for (int k = 0; k < 2; ++k) {
             crowd.pose(crowd.spawn(), 0, 0.4 * k,
                        glm::translate(glm::mat4(1.0f), {12.0f * static_cast<float>(k), 0.0f, 0.0f}));
         }
         const std::vector<SuppleRay> rays = raysAround(2, 12.0f, 3.0f, 40);
-        RayPool pool(own, {crowd.group()}, rays.size());
-        (void)pool.ask(rays);
-        const uint32_t pieces = pool.inside().pieces()->count;
+        AskedPool pool(own, {crowd.group()}, rays.size());
+        (void)pool.run(rays);
+        const uint32_t pieces = inside(own, pool).pieces()->count;
         const std::vector<TreeNode> nodes = as<TreeNode>(
-            crowd.read({pool.inside().tree()->nodes(), 0, 2 * 2 * pieces * sizeof(TreeNode), sizeof(TreeNode)}));
+            crowd.read({inside(own, pool).tree()->nodes(), 0, 2 * 2 * pieces * sizeof(TreeNode), sizeof(TreeNode)}));
         ASSERT_GT(pieces, 100u);
         for (uint32_t tree = 0; tree < 2; ++tree) {
             const std::span<const TreeNode> nodesOf = std::span(nodes).subspan(size_t{2} * pieces * tree, 2 * pieces);
@@ -279,7 +228,7 @@ TEST_F(ManyRays, MissWhatIsNotFinite) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
         const cage::Character tube = bentTube();
-        SuppleGroupDesc desc = crowdDesc(own.createAsset(tube), SUPPLE_SCHEME_CATMULL_CLARK, 2);
+        SuppleGroupDesc desc = askedGroup(own.createAsset(tube), SUPPLE_SCHEME_CATMULL_CLARK, 2, 1);
         desc.poseSource = SUPPLE_POSES_CAGE_BUFFER;
         Crowd crowd(own, desc);
         (void)crowd.spawn(), (void)crowd.spawn();
@@ -300,9 +249,9 @@ TEST_F(ManyRays, MissWhatIsNotFinite) {
             }
         });
         const std::vector<SuppleRay> rays = raysAround(1, 1.0f, 3.0f, 100);
-        RayPool many(own, {crowd.group()}, rays.size()), few(own, {crowd.group()}, shared::kRaysPerLane);
-        const std::vector<SuppleHit> hits = many.ask(rays);
-        expectSameHits(hits, few.askFew(rays));
+        AskedPool many(own, {crowd.group()}, rays.size()), few(own, {crowd.group()}, shared::kRaysPerLane);
+        const std::vector<SuppleHit> hits = many.run(rays);
+        expectSameHits(hits, askFew(few, rays));
         for (const uint32_t slot : {0u, 1u}) {
             EXPECT_TRUE(std::any_of(hits.begin(), hits.end(), [&](const SuppleHit& hit) { return hit.slot == slot; }));
         }
@@ -312,7 +261,7 @@ TEST_F(ManyRays, MissWhatIsNotFinite) {
 /// The pass queries has a time, and its memory counts.
 TEST_F(ManyRays, AreTimedAndTakeMemory) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
-    Crowd crowd(own, crowdDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PM, 3));
+    Crowd crowd(own, askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_PM, 3, 1));
     crowd.pose(crowd.spawn(), 0, 0.0, glm::mat4(1.0f));
     const std::vector<SuppleRay> rays = raysAround(1, 1.0f, 3.0f, 40);
     const auto scratch = [&] {
@@ -322,8 +271,8 @@ TEST_F(ManyRays, AreTimedAndTakeMemory) {
         return use.scratch;
     };
     const uint64_t before = scratch();
-    RayPool pool(own, {crowd.group()}, rays.size());
-    EXPECT_GE(scratch() - before, uint64_t{64} * 3 * pool.inside().pieces()->count);
+    AskedPool pool(own, {crowd.group()}, rays.size());
+    EXPECT_GE(scratch() - before, uint64_t{64} * 3 * inside(own, pool).pieces()->count);
     for (const bool isTimed : {false, true}) {
         own.beginFrame();
         ASSERT_TRUE(own.device().submitAndWait([&](VkCommandBuffer commands) {

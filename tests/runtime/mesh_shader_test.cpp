@@ -132,16 +132,7 @@ TEST_F(MeshShaders, DrawWhatVertexShadersDraw) {
     std::set<uint32_t> classes;
     Compared compared;
     for (const Subject& subject : someSubjects()) {
-        SupplePrepOptions prep{};
-        prep.structSize = sizeof prep;
-        prep.cornerRule = subject.corners;
-        SuppleGroupDesc desc{};
-        desc.asset = own.createAsset(subject.cage);
-        desc.capacity = 2;
-        desc.scheme = subject.scheme;
-        desc.rate = 16;
-        desc.prep = &prep;
-        Pair pair(own, desc, SUPPLE_BIND_POSE);
+        Pair pair = pairOf(own, subject);
         ASSERT_TRUE(pair.valid()) << subject.name;
         for (const uint32_t rate : {16u, 13u, 11u, 8u, 3u, 1u}) {
             pair.setRate(rate);

@@ -1,4 +1,5 @@
 // Nearest points on the device, beside dense samples and the searches on the CPU; instances, frames, recordings.
+#include "tests/support/asked_pool.h"
 #include "tests/support/bent_tube.h"
 #include "tests/support/crowd.h"
 #include "tests/support/dense_triangles.h"
@@ -26,72 +27,9 @@ namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity(), kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
-SuppleGroupDesc nearGroup(SuppleAsset asset, SuppleScheme scheme, uint32_t capacity = 3) {
-    SuppleGroupDesc desc{};
-    desc.asset = asset;
-    desc.capacity = capacity;
-    desc.scheme = scheme;
-    desc.rate = 2;
-    return desc;
-}
 SupplePlace placeAt(const glm::vec3& at, float most = kFar) {
     return {{at.x, at.y, at.z}, most};
 }
-
-/// A pool, and frames that ask it.
-class NearestPool {
-public:
-    NearestPool(CrowdContext& context, std::vector<SuppleGroup> groups, uint32_t count)
-        : context_(context), groups_(std::move(groups)) {
-        SuppleQueryPoolDesc desc{};
-        desc.structSize = sizeof(desc);
-        desc.flags = SUPPLE_QUERY_POOL_NEAREST;
-        desc.groups = groups_.data();
-        desc.groupCount = static_cast<uint32_t>(groups_.size());
-        desc.rayCount = count;
-        EXPECT_EQ(suppleCreateQueryPool(context.handle(), &desc, &pool_), SUPPLE_OK);
-    }
-    ~NearestPool() { EXPECT_EQ(suppleDestroyQueryPool(context_.handle(), pool_), SUPPLE_OK); }
-    NearestPool(const NearestPool&) = delete;
-    NearestPool& operator=(const NearestPool&) = delete;
-
-    /// A frame of these groups that asks with this, and what it has found.
-    std::vector<SuppleHit> run(const SuppleQueryDesc& asked) {
-        context_.beginFrame();
-        EXPECT_TRUE(context_.device().submitAndWait([&](VkCommandBuffer commands) {
-            EXPECT_EQ(context_.record(commands, groups_), SUPPLE_OK);
-            EXPECT_EQ(suppleRecordQueries(context_.handle(), commands, pool_, &asked), SUPPLE_OK);
-        }));
-        const uint64_t frame = context_.frame;
-        context_.beginFrame();
-        std::vector<SuppleHit> hits(asked.rayCount);
-        uint32_t count = asked.rayCount;
-        uint64_t read = 0;
-        EXPECT_EQ(suppleReadHits(context_.handle(), pool_, hits.data(), &count, &read), SUPPLE_OK);
-        EXPECT_EQ(count, asked.rayCount);
-        EXPECT_EQ(read, frame);
-        return hits;
-    }
-    std::vector<SuppleHit> run(const std::vector<SupplePlace>& places) { return run(descOf(places)); }
-    [[nodiscard]] static SuppleQueryDesc descOf(const std::vector<SupplePlace>& places) {
-        SuppleQueryDesc desc = empty(places.size());
-        desc.hostPlaces = places.data();
-        return desc;
-    }
-    [[nodiscard]] static SuppleQueryDesc empty(size_t count) {
-        SuppleQueryDesc desc{};
-        desc.structSize = sizeof(desc);
-        desc.flags = SUPPLE_QUERY_READ_BACK;
-        desc.rayCount = static_cast<uint32_t>(count);
-        desc.before = desc.after = kAnyUse;
-        return desc;
-    }
-
-private:
-    CrowdContext& context_;
-    std::vector<SuppleGroup> groups_;
-    SuppleQueryPool pool_{};
-};
 
 bool areSameHits(const std::vector<SuppleHit>& a, const std::vector<SuppleHit>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(SuppleHit)) == 0;
@@ -167,9 +105,9 @@ void compareNearest(const NearTruth& truth, const std::vector<SuppleHit>& hits, 
 
 void askForNearest(CrowdContext& own, const cage::Character& character, SuppleScheme scheme, uint32_t count,
                    std::optional<NearTruth>& truth, NearFigures& figures) {
-    Crowd crowd(own, nearGroup(own.createAsset(character), scheme));
+    Crowd crowd(own, askedGroup(own.createAsset(character), scheme));
     ASSERT_TRUE(crowd.valid());
-    NearestPool pool(own, {crowd.group()}, count);
+    AskedPool pool(own, {crowd.group()}, count, SUPPLE_QUERY_POOL_NEAREST);
     const SuppleInstance away = crowd.spawn(), posed = crowd.spawn();
     crowd.pose(away, 0, 0.0, glm::translate(glm::mat4(1.0f), {-500.0f, 0.0f, 0.0f}));
     crowd.pose(posed, 0, 0.8,
@@ -247,8 +185,9 @@ TEST_F(NearestPoints, SayWhichInstanceOfWhichGroupIsNear) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
         const SuppleAsset asset = own.createAsset(cage::makeCubeSphere(2));
-        Crowd first(own, nearGroup(asset, SUPPLE_SCHEME_CAGE, 4)), second(own, nearGroup(asset, SUPPLE_SCHEME_CAGE, 4));
-        NearestPool pool(own, {second.group(), first.group()}, 64);
+        Crowd first(own, askedGroup(asset, SUPPLE_SCHEME_CAGE, 4)),
+            second(own, askedGroup(asset, SUPPLE_SCHEME_CAGE, 4));
+        AskedPool pool(own, {second.group(), first.group()}, 64, SUPPLE_QUERY_POOL_NEAREST);
         const auto spawn = [](Crowd& crowd, float x) {
             const SuppleInstance made = crowd.spawn();
             const glm::mat4 place = glm::translate(glm::mat4(1.0f), {x, 0.0f, 0.0f});
@@ -305,8 +244,8 @@ TEST_F(NearestPoints, BadPlacesHaveNone) {
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        Crowd crowd(own, nearGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_PM));
-        NearestPool pool(own, {crowd.group()}, 64);
+        Crowd crowd(own, askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_PM));
+        AskedPool pool(own, {crowd.group()}, 64, SUPPLE_QUERY_POOL_NEAREST);
         (void)crowd.spawn();
         std::vector<SupplePlace> good, mixed;
         for (size_t k = 0; k < 20; ++k) { // more than a lane looks at at once
@@ -322,7 +261,7 @@ TEST_F(NearestPoints, BadPlacesHaveNone) {
         }
         // Rays may come in other frames of the pool.
         const SuppleRay ray{{0.9f, 0.2f, 9.0f}, 0.0f, {0.0f, 0.0f, -1.0f}, kFar};
-        SuppleQueryDesc rays = NearestPool::empty(1);
+        SuppleQueryDesc rays = AskedPool::batchOf(1);
         rays.hostRays = &ray;
         EXPECT_EQ(pool.run(rays)[0].group, 0u);
         EXPECT_TRUE(areSameHits(pool.run(good), alone));
@@ -335,10 +274,10 @@ TEST_F(NearestPoints, TakePlacesOfTheDevice) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
         const cage::Cage ball = cage::makeCubeSphere(2);
-        SuppleGroupDesc desc = nearGroup(own.createAsset(ball), SUPPLE_SCHEME_CAGE, 2);
+        SuppleGroupDesc desc = askedGroup(own.createAsset(ball), SUPPLE_SCHEME_CAGE, 2);
         desc.poseSource = SUPPLE_POSES_CAGE_BUFFER;
         Crowd crowd(own, desc);
-        NearestPool pool(own, {crowd.group()}, 32);
+        AskedPool pool(own, {crowd.group()}, 32, SUPPLE_QUERY_POOL_NEAREST);
         (void)crowd.spawn(), (void)crowd.spawn();
         std::vector<glm::vec4> cages[2];
         for (const glm::vec3& p : ball.positions) { // one of the other's vertices is none
@@ -354,7 +293,7 @@ TEST_F(NearestPoints, TakePlacesOfTheDevice) {
             }
         });
         // The vertices of the first instance, with 1 for the farthest distance, are places.
-        SuppleQueryDesc ofDevice = NearestPool::empty(20);
+        SuppleQueryDesc ofDevice = AskedPool::batchOf(20);
         ofDevice.places = {range.buffer, range.offset, 20 * sizeof(SupplePlace), 0};
         const std::vector<SuppleHit> hits = pool.run(ofDevice);
         std::vector<SupplePlace> places;
@@ -378,10 +317,10 @@ TEST_F(NearestPoints, AreRecorded) {
         if (!isLate) {
             ASSERT_EQ(recorded.start(own.handle()), SUPPLE_OK);
         }
-        Crowd crowd(own, nearGroup(own.createAsset(tube), SUPPLE_SCHEME_PM));
-        auto gone = std::make_unique<Crowd>(own, nearGroup(own.createAsset(tube), SUPPLE_SCHEME_CAGE));
-        NearestPool pool(own, {crowd.group()}, 8);
-        auto ended = std::make_unique<NearestPool>(own, std::vector{crowd.group()}, 8);
+        Crowd crowd(own, askedGroup(own.createAsset(tube), SUPPLE_SCHEME_PM));
+        auto gone = std::make_unique<Crowd>(own, askedGroup(own.createAsset(tube), SUPPLE_SCHEME_CAGE));
+        AskedPool pool(own, {crowd.group()}, 8, SUPPLE_QUERY_POOL_NEAREST);
+        auto ended = std::make_unique<AskedPool>(own, std::vector{crowd.group()}, 8, SUPPLE_QUERY_POOL_NEAREST);
         SuppleQueryPool ofBoth{}, ofGone{};
         const SuppleGroup both[] = {gone->group(), crowd.group()};
         SuppleQueryPoolDesc desc{};
@@ -402,7 +341,7 @@ TEST_F(NearestPoints, AreRecorded) {
         }
         EXPECT_EQ(pool.run({placeAt({0, 1, 2})})[0].group, 0u);
         const SuppleRay ray{{0.9f, 0.2f, 9.0f}, 0.0f, {0.0f, 0.0f, -1.0f}, kFar};
-        SuppleQueryDesc rays = NearestPool::empty(1);
+        SuppleQueryDesc rays = AskedPool::batchOf(1);
         rays.hostRays = &ray;
         rays.groups = both + 1;
         rays.groupCount = 1;

@@ -1,5 +1,6 @@
 // Queries on the device: what rays meet, beside dense triangles and the searches on the CPU; batches, frames, mistakes.
 #include "runtime/queries/query_pieces.h"
+#include "tests/support/asked_pool.h"
 #include "tests/support/bent_tube.h"
 #include "tests/support/crowd.h"
 #include "tests/support/dense_triangles.h"
@@ -40,75 +41,6 @@ std::vector<SuppleRay> raysOf(const std::vector<TestRay>& from) {
     }
     return rays;
 }
-
-SuppleGroupDesc groupDesc(SuppleAsset asset, SuppleScheme scheme, uint32_t capacity = 3) {
-    SuppleGroupDesc desc{};
-    desc.asset = asset;
-    desc.capacity = capacity;
-    desc.scheme = scheme;
-    desc.rate = 2;
-    return desc;
-}
-
-/// A pool, and frames that ask it.
-class Pool {
-public:
-    Pool(CrowdContext& context, std::vector<SuppleGroup> groups, uint32_t rayCount)
-        : context_(context), groups_(std::move(groups)) {
-        SuppleQueryPoolDesc desc{};
-        desc.structSize = sizeof(desc);
-        desc.groups = groups_.data();
-        desc.groupCount = static_cast<uint32_t>(groups_.size());
-        desc.rayCount = rayCount;
-        EXPECT_EQ(suppleCreateQueryPool(context.handle(), &desc, &pool_), SUPPLE_OK);
-    }
-    ~Pool() { EXPECT_EQ(suppleDestroyQueryPool(context_.handle(), pool_), SUPPLE_OK); }
-    Pool(const Pool&) = delete;
-    Pool& operator=(const Pool&) = delete;
-
-    [[nodiscard]] SuppleQueryPool handle() const { return pool_; }
-    [[nodiscard]] SuppleQueryDesc descOf(const std::vector<SuppleRay>& rays) const {
-        SuppleQueryDesc desc{};
-        desc.structSize = sizeof(desc);
-        desc.flags = SUPPLE_QUERY_READ_BACK;
-        desc.hostRays = rays.data();
-        desc.rayCount = static_cast<uint32_t>(rays.size());
-        desc.before = desc.after = kAnyUse;
-        return desc;
-    }
-    /// A frame of these groups that asks, and what it has found. It is complete when the next one begins.
-    std::vector<SuppleHit> run(const std::vector<SuppleRay>& rays, std::vector<SuppleGroup> groups = {},
-                               const std::vector<SuppleTriangleHit>& triangles = {}) {
-        groups = groups.empty() ? groups_ : groups;
-        context_.beginFrame();
-        const Status submitted = context_.device().submitAndWait([&](VkCommandBuffer commands) {
-            EXPECT_EQ(context_.record(commands, groups), SUPPLE_OK);
-            SuppleQueryDesc desc = descOf(rays);
-            desc.hostTriangles = triangles.empty() ? nullptr : triangles.data();
-            EXPECT_EQ(suppleRecordQueries(context_.handle(), commands, pool_, &desc), SUPPLE_OK);
-        });
-        EXPECT_TRUE(submitted.ok());
-        const uint64_t asked = context_.frame;
-        context_.beginFrame();
-        uint64_t frame = 0;
-        std::vector<SuppleHit> hits = read(&frame);
-        EXPECT_EQ(frame, asked);
-        EXPECT_EQ(hits.size(), rays.size());
-        return hits;
-    }
-    [[nodiscard]] std::vector<SuppleHit> read(uint64_t* frame = nullptr) const {
-        uint32_t count = 0;
-        EXPECT_EQ(suppleReadHits(context_.handle(), pool_, nullptr, &count, nullptr), SUPPLE_OK);
-        std::vector<SuppleHit> hits(count);
-        EXPECT_EQ(suppleReadHits(context_.handle(), pool_, hits.data(), &count, frame), SUPPLE_OK);
-        return hits;
-    }
-
-private:
-    CrowdContext& context_;
-    std::vector<SuppleGroup> groups_;
-    SuppleQueryPool pool_{};
-};
 
 std::vector<glm::vec3> deformedCage(const Crowd& crowd, uint32_t slot, size_t vertices) {
     const std::vector<glm::vec4> all = as<glm::vec4>(crowd.slotBytes(crowd.output().info.deformedCage, slot));
@@ -212,9 +144,9 @@ constexpr SuppleScheme kQuerySchemes[] = {SUPPLE_SCHEME_PREP,      SUPPLE_SCHEME
 /// in both mappings.
 void compareCharacter(CrowdContext& own, const cage::Character& character, SuppleScheme scheme, uint32_t count,
                       std::optional<Truth>& truth, Figures& figures) {
-    Crowd crowd(own, groupDesc(own.createAsset(character), scheme));
+    Crowd crowd(own, askedGroup(own.createAsset(character), scheme));
     ASSERT_TRUE(crowd.valid());
-    Pool pool(own, {crowd.group()}, count);
+    AskedPool pool(own, {crowd.group()}, count);
     (void)crowd.spawn(); // out of the way
     const SuppleInstance posed = crowd.spawn();
     crowd.pose(posed, 0, 0.8,
@@ -312,9 +244,9 @@ TEST_F(Queries, SayWhichInstanceOfWhichGroupIsMet) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
         const SuppleAsset asset = own.createAsset(bentTube());
-        Crowd near(own, groupDesc(asset, SUPPLE_SCHEME_CATMULL_CLARK, 4)),
-            far(own, groupDesc(asset, SUPPLE_SCHEME_PM, 4));
-        Pool pool(own, {far.group(), near.group()}, 8);
+        Crowd near(own, askedGroup(asset, SUPPLE_SCHEME_CATMULL_CLARK, 4)),
+            far(own, askedGroup(asset, SUPPLE_SCHEME_PM, 4));
+        AskedPool pool(own, {far.group(), near.group()}, 8);
         std::vector<SuppleInstance> front{near.spawn(), near.spawn()}, back;
         for (uint32_t k = 0; k < 4; ++k) {
             back.push_back(far.spawn());
@@ -365,8 +297,8 @@ TEST_F(Queries, BadRaysMeetNothing) {
     for (const SuppleMapping mapping : kMappings) {
         SCOPED_TRACE(mappingName(mapping));
         CrowdContext& own = context(mapping);
-        Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PREP));
-        Pool pool(own, {crowd.group()}, 64);
+        Crowd crowd(own, askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_PREP));
+        AskedPool pool(own, {crowd.group()}, 64);
         poseInRow(crowd, {crowd.spawn(), crowd.spawn()});
         const std::vector<SuppleRay> good = rows(2);
         const std::vector<SuppleHit> alone = pool.run(good);
@@ -392,8 +324,8 @@ TEST_F(Queries, BadRaysMeetNothing) {
 /// Rays of the device are those of the host; and hits come frames later.
 TEST_F(Queries, TakeRaysOfTheDeviceAndAreReadFramesLater) {
     CrowdContext own(*testDevice(), SUPPLE_MAPPING_AUTO, 3);
-    Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PM));
-    Pool pool(own, {crowd.group()}, 40);
+    Crowd crowd(own, askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_PM));
+    AskedPool pool(own, {crowd.group()}, 40);
     poseInRow(crowd, {crowd.spawn(), crowd.spawn(), crowd.spawn()});
     std::vector<SuppleRay> rays;
     while (rays.size() < 40) { // more than a lane looks at at once
@@ -462,9 +394,9 @@ TEST_F(Queries, TakeRaysOfTheDeviceAndAreReadFramesLater) {
 TEST_F(Queries, FollowTheirGroups) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
     const SuppleAsset asset = own.createAsset(bentTube());
-    auto first = std::make_unique<Crowd>(own, groupDesc(asset, SUPPLE_SCHEME_PM, 2));
-    Crowd second(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_CATMULL_CLARK, 2));
-    Pool pool(own, {first->group(), second.group()}, 8);
+    auto first = std::make_unique<Crowd>(own, askedGroup(asset, SUPPLE_SCHEME_PM, 2));
+    Crowd second(own, askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_CATMULL_CLARK, 2));
+    AskedPool pool(own, {first->group(), second.group()}, 8);
     std::vector<SuppleInstance> instances{first->spawn(), first->spawn()};
     poseInRow(*first, instances);
     second.pose(second.spawn(), 0, 0.0, glm::translate(glm::mat4(1.0f), {0.0f, 0.0f, -8.0f}));
@@ -508,9 +440,9 @@ TEST_F(Queries, MeetGroupsOfViews) {
     };
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
-        SuppleGroupDesc desc = groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PM, 2);
+        SuppleGroupDesc desc = askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_PM, 2);
         Crowd atRate(own, desc);
-        Pool ofRate(own, {atRate.group()}, 2);
+        AskedPool ofRate(own, {atRate.group()}, 2);
         poseBoth(atRate);
         const std::vector<SuppleHit> wanted = ofRate.run(rays);
         for (uint32_t k = 0; k < 2; ++k) {
@@ -524,7 +456,7 @@ TEST_F(Queries, MeetGroupsOfViews) {
             desc.flags = posesUnseen ? SUPPLE_GROUP_POSE_UNSEEN : 0;
             Crowd seen(own, desc);
             ASSERT_TRUE(seen.valid());
-            Pool pool(own, {seen.group()}, 2);
+            AskedPool pool(own, {seen.group()}, 2);
             poseBoth(seen);
             std::vector<uint32_t> vertices;
             for (const float away : {20.0f, 400.0f}) {
@@ -544,8 +476,8 @@ TEST_F(Queries, MeetGroupsOfViews) {
 /// What a pose mirrors has its normals outside.
 TEST_F(Queries, MeetMirroredInstances) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
-    Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_CATMULL_CLARK));
-    Pool pool(own, {crowd.group()}, 4);
+    Crowd crowd(own, askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_CATMULL_CLARK));
+    AskedPool pool(own, {crowd.group()}, 4);
     crowd.pose(crowd.spawn(), 0, 0.4, glm::scale(glm::mat4(1.0f), {1.0f, 1.0f, -1.0f}));
     const SuppleHit hit = pool.run({rayOf({0.9f, 0.1f, 9.0f}, {0.0f, 0.0f, -1.0f})})[0];
     EXPECT_EQ(hit.group, 0u);
@@ -558,10 +490,10 @@ TEST_F(Queries, MissInstancesThatAreNotFinite) {
     for (const SuppleMapping mapping : kMappings) {
         CrowdContext& own = context(mapping);
         const cage::Cage ball = cage::makeCubeSphere(2);
-        SuppleGroupDesc desc = groupDesc(own.createAsset(ball), SUPPLE_SCHEME_CAGE, 2);
+        SuppleGroupDesc desc = askedGroup(own.createAsset(ball), SUPPLE_SCHEME_CAGE, 2);
         desc.poseSource = SUPPLE_POSES_CAGE_BUFFER;
         Crowd crowd(own, desc);
-        Pool pool(own, {crowd.group()}, 4);
+        AskedPool pool(own, {crowd.group()}, 4);
         (void)crowd.spawn(), (void)crowd.spawn();
         std::vector<glm::vec4> cages[2];
         for (const glm::vec3& p : ball.positions) {
@@ -643,12 +575,12 @@ TEST_F(Queries, RefineHitsOfTriangles) {
         for (const SuppleMapping mapping : kMappings) {
             SCOPED_TRACE(mappingName(mapping) + ", scheme " + std::to_string(scheme));
             CrowdContext& own = context(mapping);
-            SuppleGroupDesc desc = groupDesc(own.createAsset(tube), scheme);
+            SuppleGroupDesc desc = askedGroup(own.createAsset(tube), scheme);
             desc.flags = flags;
             desc.rate = 4;
             Crowd crowd(own, desc);
             ASSERT_TRUE(crowd.valid());
-            Pool pool(own, {crowd.group()}, 80);
+            AskedPool pool(own, {crowd.group()}, 80);
             (void)crowd.spawn();
             const SuppleInstance posed = crowd.spawn();
             crowd.pose(posed, 0, 0.8, glm::translate(glm::mat4(1.0f), {0.0f, 30.0f, 0.0f}));
@@ -689,13 +621,13 @@ TEST_F(Queries, RefineHitsOfSurfacesAtOtherRates) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
     const std::array schemes{SUPPLE_SCHEME_CATMULL_CLARK, SUPPLE_SCHEME_LOOP};
     SuppleGroupDesc desc =
-        groupDesc(own.createAsset(sideBySide(inTriangles(cage::makeCubeSphere(2)), "ball", 2)), SUPPLE_SCHEME_AUTO);
+        askedGroup(own.createAsset(sideBySide(inTriangles(cage::makeCubeSphere(2)), "ball", 2)), SUPPLE_SCHEME_AUTO);
     desc.rate = 5;
     desc.partSchemes = schemes.data();
     desc.partSchemeCount = 2;
     Crowd crowd(own, desc);
     ASSERT_TRUE(crowd.valid());
-    Pool pool(own, {crowd.group()}, 1024);
+    AskedPool pool(own, {crowd.group()}, 1024);
     const SuppleInstance instance = crowd.spawn();
     crowd.pose(instance, SUPPLE_BIND_POSE, 0.0, glm::mat4(1.0f));
     for (const uint32_t rate : {5u, 4u}) {
@@ -727,8 +659,8 @@ TEST_F(Queries, RefineHitsOfSurfacesAtOtherRates) {
 /// Triangles that there are not are nothing that is met.
 TEST_F(Queries, RefineNothingOfTrianglesThatAreNone) {
     CrowdContext& own = context(SUPPLE_MAPPING_AUTO);
-    Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_PM));
-    Pool pool(own, {crowd.group()}, 16);
+    Crowd crowd(own, askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_PM));
+    AskedPool pool(own, {crowd.group()}, 16);
     poseInRow(crowd, {crowd.spawn()});
     const SuppleRay ray = rows(1)[0];
     const SuppleHit cast = pool.run({ray})[0];
@@ -754,7 +686,7 @@ TEST_F(Queries, RefineNothingOfTrianglesThatAreNone) {
 TEST_F(Queries, WaitForUploads) {
     CrowdContext own(*testDevice());
     ASSERT_EQ(suppleSetUploadBudget(own.handle(), 4096), SUPPLE_OK);
-    Crowd crowd(own, groupDesc(own.createAsset(bentTube()), SUPPLE_SCHEME_CATMULL_CLARK));
+    Crowd crowd(own, askedGroup(own.createAsset(bentTube()), SUPPLE_SCHEME_CATMULL_CLARK));
     poseInRow(crowd, {crowd.spawn()});
     const auto state = [&] {
         SuppleUploadState state{};
@@ -765,7 +697,7 @@ TEST_F(Queries, WaitForUploads) {
     for (int frame = 0; frame < 1000 && state().complete == 0; ++frame) {
         crowd.run();
     }
-    Pool pool(own, {crowd.group()}, 4);
+    AskedPool pool(own, {crowd.group()}, 4);
     EXPECT_EQ(state().complete, 0u);
     EXPECT_EQ(pool.run(rows(1))[0].group, SUPPLE_NO_HIT);
     for (int frame = 0; frame < 1000 && state().complete == 0; ++frame) {

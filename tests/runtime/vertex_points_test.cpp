@@ -142,7 +142,7 @@ void expectOnVertices(const Crowd& crowd, const VertexPointSet& set, const Verte
     EXPECT_EQ(lacking, 0) << "of " << vertices.size();
 }
 
-/// Of quads: points on the grid, and those alone, have vertices.
+/// On quads, points on the grid, and those alone, have vertices.
 TEST_F(VertexPoints, HaveTheBitsOfVerticesOfQuads) {
     cage::Cage ball = perturbed(cage::makeCubeSphere(2), 0.05f, 3); // eight of its vertices have three faces
     std::vector<SuppleSurfacePoint> points = latticeOf(ball, 12, 12);

@@ -674,6 +674,29 @@ TEST_F(MaterialPictureTest, TexturesOfLayersMultiplyTheirFactors) {
     }
 }
 
+TEST_F(MaterialPictureTest, TexturesOfLayersThatAreTooManyAreNamed) {
+    std::string layers;
+    for (
+        const char* const members :
+        {R"("clearcoat":{"clearcoatFactor":1,"clearcoatTexture":#,"clearcoatRoughnessTexture":#,"clearcoatNormalTexture":#})",
+         R"("sheen":{"sheenColorFactor":[1,1,1],"sheenColorTexture":#,"sheenRoughnessTexture":#})",
+         R"("transmission":{"transmissionFactor":0.5,"transmissionTexture":#})",
+         R"("specular":{"specularTexture":#,"specularColorTexture":#})",
+         R"("iridescence":{"iridescenceFactor":1,"iridescenceTexture":#,"iridescenceThicknessTexture":#})"}) {
+        layers.append(layers.empty() ? "" : ",").append("\"KHR_materials_").append(members + 1);
+    }
+    for (size_t at = layers.find('#'); at != std::string::npos; at = layers.find('#'))
+        layers.replace(at, 1, R"({"index":0})");
+    SceneFile file = square(flatColor("[0.5,0.5,0.5,1]", R"(,"name":"beetle","extensions":{)" + layers + "}"),
+                            {texels([](uint32_t, uint32_t) { return glm::u8vec4(128, 128, 255, 255); })});
+    testing::internal::CaptureStderr();
+    (void)draw(file, facing());
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("material beetle: iridescenceTexture, iridescenceThicknessTexture: left out, as 8 textures"),
+              std::string::npos)
+        << said;
+}
+
 TEST_F(MaterialPictureTest, OcclusionDimsLightFromAllRound) {
     const Picture left = texels([](uint32_t x, uint32_t) { return glm::u8vec4(x < 4 ? 255 : 0, 0, 0, 255); });
     const auto at = [&](const std::string& strength, uint32_t x) {
